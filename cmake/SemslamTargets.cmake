@@ -1,0 +1,62 @@
+# semslam_add_module(NAME SOURCES file.cc ... DEPENDS targets ... PRIVATE_DEPENDS targets ...)
+# One static library a module. Sources are relative to src/NAME; headers are in include/semslam/NAME.
+# DEPENDS is what its headers need, PRIVATE_DEPENDS what only its sources need; the layer check reads both.
+function(semslam_add_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target semslam_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(semslam::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS}
+                        $<BUILD_INTERFACE:semslam_flags>)
+  semslam_enable_tidy(${target})
+  set_property(GLOBAL APPEND PROPERTY SEMSLAM_MODULE_TARGETS ${target})
+endfunction()
+
+# The one target users link: every module.
+function(semslam_add_umbrella)
+  get_property(targets GLOBAL PROPERTY SEMSLAM_MODULE_TARGETS)
+  add_library(semslam INTERFACE)
+  add_library(semslam::semslam ALIAS semslam)
+  target_link_libraries(semslam INTERFACE ${targets})
+endfunction()
+
+# semslam_add_program(NAME SOURCES file.cc ... DEPENDS targets ...): a program in bin/, installed.
+function(semslam_add_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/Examples)
+  target_compile_definitions(${name} PRIVATE SEMSLAM_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} semslam_flags)
+  semslam_enable_tidy(${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# semslam_add_tests(NAME SOURCES file_test.cc ... DEPENDS targets ... [LABELS unit] [TIMEOUT 60])
+# One test program of GoogleTest cases; each case is a ctest test.
+function(semslam_add_tests name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} semslam_flags GTest::gmock GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()
+
+function(semslam_enable_tidy target)
+  if(SEMSLAM_TIDY)
+    set_target_properties(${target} PROPERTIES
+      CXX_CLANG_TIDY "${CLANG_TIDY_PROGRAM};--quiet;--extra-arg=-Wno-unknown-warning-option")
+  endif()
+endfunction()
