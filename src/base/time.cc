@@ -39,7 +39,8 @@ std::string FormatTime(TimeNs time, int decimals) {
   TimeNs unit = 1;
   for (int i = decimals; i < 9; ++i) unit *= 10;
   const bool negative = time < 0;
-  const TimeNs rounded = ((negative ? -time : time) + unit / 2) / unit;  // In units of the last decimal.
+  const TimeNs rounded =
+      ((negative ? -time : time) + unit / 2) / unit;  // In units of the last decimal.
   TimeNs scale = 1;
   for (int i = 0; i < decimals; ++i) scale *= 10;
   std::string text = (negative ? "-" : "") + std::to_string(rounded / scale);

@@ -46,7 +46,8 @@ Eigen::Vector2d PinholeCamera::Distort(const Eigen::Vector2d& ideal_pixel) const
 Eigen::Vector2d PinholeCamera::Undistort(const Eigen::Vector2d& raw_pixel) const {
   if (!has_distortion()) return raw_pixel;
   const Eigen::Vector2d target{(raw_pixel.x() - cx()) / fx(), (raw_pixel.y() - cy()) / fy()};
-  // Fixed-point iteration p <- p - (distort(p) - target); a contraction for the small distortion of RGB-D cameras.
+  // Fixed-point iteration p <- p - (distort(p) - target); a contraction for the small distortion of
+  // RGB-D cameras.
   Eigen::Vector2d p = target;
   constexpr int kMaxIterations = 50;
   for (int i = 0; i < kMaxIterations; ++i) {
@@ -78,8 +79,7 @@ PinholeCamera::Bounds PinholeCamera::ComputeIdealBounds() const {
   return bounds;
 }
 
-RayTable::RayTable(const PinholeCamera& camera)
-    : width_(camera.width()), height_(camera.height()) {
+RayTable::RayTable(const PinholeCamera& camera) : width_(camera.width()), height_(camera.height()) {
   rays_.reserve(static_cast<std::size_t>(width_) * height_);
   for (int row = 0; row < height_; ++row) {
     for (int column = 0; column < width_; ++column) {

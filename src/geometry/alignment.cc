@@ -39,8 +39,7 @@ std::optional<Rigid3> AlignPoints(std::span<const Eigen::Vector3d> points_a,
   // No reflection: the sign of the least determined axis follows from the other two.
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) signs.z() = -1.0;
-  const Eigen::Matrix3d rotation =
-      svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   return Rigid3{Eigen::Quaterniond(rotation).normalized(), mean_a - rotation * mean_b};
 }
 

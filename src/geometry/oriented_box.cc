@@ -80,8 +80,8 @@ double ConeVolume(const Polygon& polygon, const Eigen::Vector3d& apex) {
   return std::abs(volume);
 }
 
-// The intersection is convex: cut it into cones from a point inside over its faces, which are the faces of each box
-// clipped with the other box.
+// The intersection is convex: cut it into cones from a point inside over its faces, which are the
+// faces of each box clipped with the other box.
 double IntersectionVolume(const OrientedBox& a, const OrientedBox& b) {
   const Rigid3 T_a_b = a.T_world_box.Inverse() * b.T_world_box;
   const Rigid3 T_b_a = T_a_b.Inverse();

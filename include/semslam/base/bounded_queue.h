@@ -21,7 +21,8 @@ class BoundedQueue {
   explicit BoundedQueue(std::size_t capacity, QueueOrder order = QueueOrder::kOldestFirst)
       : capacity_(capacity), order_(order) {}
 
-  // Waits for room. False, and the item is dropped, once the queue is closed or `stop` is requested.
+  // Waits for room. False, and the item is dropped, once the queue is closed or `stop` is
+  // requested.
   bool Push(T item, std::stop_token stop = {}) {
     std::unique_lock lock(mutex_);
     // The predicate's value is what wait returns, also after a stop: so the stop is tested as well.

@@ -29,7 +29,8 @@ class CheckFailure {
 
 }  // namespace semslam::internal
 
-// A broken contract between parts of the program: throws std::logic_error with file, line and values.
+// A broken contract between parts of the program: throws std::logic_error with file, line and
+// values.
 //   SEMSLAM_CHECK(voxel_size > 0) << "voxel_size = " << voxel_size;
 #define SEMSLAM_CHECK(condition) \
   if (condition) {               \

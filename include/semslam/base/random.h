@@ -7,8 +7,8 @@
 
 namespace semslam {
 
-// A small seeded generator (SplitMix64) whose sequence is the same on every platform and library, unlike the
-// distributions of <random>. Not for cryptography.
+// A small seeded generator (SplitMix64) whose sequence is the same on every platform and library,
+// unlike the distributions of <random>. Not for cryptography.
 class Random {
  public:
   using result_type = std::uint64_t;

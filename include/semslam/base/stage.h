@@ -15,10 +15,12 @@
 
 namespace semslam {
 
-// kInline runs every stage in the caller's thread at once: same input, same bytes out. kWorkers gives each its thread.
+// kInline runs every stage in the caller's thread at once: same input, same bytes out. kWorkers
+// gives each its thread.
 enum class Threading { kInline, kWorkers };
 
-// Runs one function on the inputs submitted to it. Submit may be called from any thread; Finish and Cancel from one.
+// Runs one function on the inputs submitted to it. Submit may be called from any thread; Finish and
+// Cancel from one.
 template <typename Input>
 class Stage {
  public:
@@ -38,8 +40,9 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
   ~Stage() { Cancel(); }
 
-  // kInline: processes it now, and an exception comes straight out. kWorkers: queues it, waits while the queue is full.
-  // False, and the input is dropped, once the stage is finished, cancelled or has failed.
+  // kInline: processes it now, and an exception comes straight out. kWorkers: queues it, waits
+  // while the queue is full. False, and the input is dropped, once the stage is finished, cancelled
+  // or has failed.
   bool Submit(Input input) {
     if (!worker_) return ProcessInline(std::move(input));
     return Count(&BoundedQueue<Input>::Push, std::move(input), std::stop_token());
@@ -61,7 +64,8 @@ class Stage {
     }
   }
 
-  // Ends after the input in hand, drops the rest, joins. Never throws: an error of the function is dropped too.
+  // Ends after the input in hand, drops the rest, joins. Never throws: an error of the function is
+  // dropped too.
   void Cancel() noexcept {
     if (worker_) worker_->request_stop();
     queue_.Close();
@@ -75,7 +79,8 @@ class Stage {
   bool failed() const { return failed_.load(); }
 
  private:
-  // Counts an input as unfinished from before it is queued, so that idle() never sees it in neither place.
+  // Counts an input as unfinished from before it is queued, so that idle() never sees it in neither
+  // place.
   template <typename... Args>
   bool Count(bool (BoundedQueue<Input>::*push)(Args...), Args... args) {
     ++num_unfinished_;
@@ -114,7 +119,7 @@ class Stage {
   std::atomic<int> num_unfinished_ = 0;
   std::atomic<bool> failed_ = false;
   bool finished_ = false;
-  std::exception_ptr error_;          // Written by the worker before it ends, read after the join.
+  std::exception_ptr error_;  // Written by the worker before it ends, read after the join.
   std::optional<std::jthread> worker_;  // Last: joined before anything it uses is destroyed.
 };
 

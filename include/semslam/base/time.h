@@ -9,7 +9,8 @@
 
 namespace semslam {
 
-// Integer nanoseconds since the epoch of the recording: exact where a double of seconds since 1970 is not.
+// Integer nanoseconds since the epoch of the recording: exact where a double of seconds since 1970
+// is not.
 using TimeNs = std::int64_t;
 
 inline constexpr TimeNs kNsPerSecond = 1'000'000'000;
@@ -19,8 +20,8 @@ constexpr TimeNs FromSeconds(double seconds) {
   return static_cast<TimeNs>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5));
 }
 
-// "1305031102.175304" -> 1305031102175304000, exactly. Nothing unless all of the text is a plain decimal number
-// (digits beyond nanoseconds are cut) that fits.
+// "1305031102.175304" -> 1305031102175304000, exactly. Nothing unless all of the text is a plain
+// decimal number (digits beyond nanoseconds are cut) that fits.
 std::optional<TimeNs> ParseTime(std::string_view seconds);
 
 // 1305031102175304000 -> "1305031102.175304".

@@ -14,8 +14,8 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
-  // The next frame in time; nothing at the end. Throws InputError if this frame cannot be read; the source stays usable
-  // and the next call goes on with the frame after it.
+  // The next frame in time; nothing at the end. Throws InputError if this frame cannot be read; the
+  // source stays usable and the next call goes on with the frame after it.
   virtual std::optional<RgbdImage> Next() = 0;
 
   // Number of frames in all, where it is known beforehand.

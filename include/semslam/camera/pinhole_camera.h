@@ -8,8 +8,9 @@
 
 namespace semslam {
 
-// A pinhole camera with Brown's distortion (k1 k2 p1 p2 k3, OpenCV's order of meaning). Pixel (0, 0) is the centre of
-// the top-left pixel. Camera frame: x right, y down, z forward. An immutable value; safe to share between threads.
+// A pinhole camera with Brown's distortion (k1 k2 p1 p2 k3, OpenCV's order of meaning). Pixel (0,
+// 0) is the centre of the top-left pixel. Camera frame: x right, y down, z forward. An immutable
+// value; safe to share between threads.
 class PinholeCamera {
  public:
   struct Parameters {
@@ -26,7 +27,8 @@ class PinholeCamera {
     double k3 = 0;
   };
 
-  // Throws std::logic_error unless the size and focal lengths are positive and everything is finite.
+  // Throws std::logic_error unless the size and focal lengths are positive and everything is
+  // finite.
   explicit PinholeCamera(const Parameters& parameters);
 
   const Parameters& parameters() const { return parameters_; }
@@ -46,7 +48,8 @@ class PinholeCamera {
     return {(ideal_pixel.x() - cx()) / fx() * z, (ideal_pixel.y() - cy()) / fy() * z, z};
   }
 
-  // Ideal pixel -> pixel in the image as recorded, and back (by iteration, to 1e-9 px where the model is invertible).
+  // Ideal pixel -> pixel in the image as recorded, and back (by iteration, to 1e-9 px where the
+  // model is invertible).
   Eigen::Vector2d Distort(const Eigen::Vector2d& ideal_pixel) const;
   Eigen::Vector2d Undistort(const Eigen::Vector2d& raw_pixel) const;
 
@@ -63,8 +66,8 @@ class PinholeCamera {
   Bounds ideal_bounds_;
 };
 
-// For each pixel of the recorded image, row by row, the direction (x/z, y/z) it looks in: back-projection without
-// distortion is then ray * z.
+// For each pixel of the recorded image, row by row, the direction (x/z, y/z) it looks in:
+// back-projection without distortion is then ray * z.
 class RayTable {
  public:
   explicit RayTable(const PinholeCamera& camera);

@@ -10,7 +10,8 @@
 
 namespace semslam {
 
-// A colour and a depth image taken together, registered pixel by pixel, as recorded (not undistorted).
+// A colour and a depth image taken together, registered pixel by pixel, as recorded (not
+// undistorted).
 struct RgbdImage {
   TimeNs time = 0;  // Of the colour image.
   cv::Mat color;    // CV_8UC3, BGR.
@@ -20,7 +21,8 @@ struct RgbdImage {
 // Images are shared between threads and never changed after they are made.
 using RgbdImagePtr = std::shared_ptr<const RgbdImage>;
 
-// 16-bit depth as cameras and PNG files have it (units of 1/depth_factor metres, 0 = none) to metres.
+// 16-bit depth as cameras and PNG files have it (units of 1/depth_factor metres, 0 = none) to
+// metres.
 cv::Mat DepthToMetres(const cv::Mat& depth_16u, double depth_factor);
 
 }  // namespace semslam

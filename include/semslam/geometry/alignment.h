@@ -11,8 +11,9 @@
 
 namespace semslam {
 
-// The rigid motion T_a_b that minimises sum |a_i - T_a_b * b_i|^2 (Umeyama 1991, scale fixed at 1). Nothing for fewer
-// than three pairs, or pairs so close to one line (or one point) that the rotation is not determined.
+// The rigid motion T_a_b that minimises sum |a_i - T_a_b * b_i|^2 (Umeyama 1991, scale fixed at 1).
+// Nothing for fewer than three pairs, or pairs so close to one line (or one point) that the
+// rotation is not determined.
 std::optional<Rigid3> AlignPoints(std::span<const Eigen::Vector3d> points_a,
                                   std::span<const Eigen::Vector3d> points_b);
 

@@ -35,8 +35,9 @@ Eigen::Matrix3d Skew(const Eigen::Vector3d& a);
 Eigen::Quaterniond ExpSO3(const Eigen::Vector3d& rotation_vector);
 Eigen::Vector3d LogSO3(const Eigen::Quaterniond& rotation);
 
-// The pose perturbed on the right: rotation * Exp(delta_r), translation + rotation * delta_t. First-order equal to
-// T * Exp(delta), with delta = (delta_r, delta_t). The one perturbation used everywhere in this project.
+// The pose perturbed on the right: rotation * Exp(delta_r), translation + rotation * delta_t.
+// First-order equal to T * Exp(delta), with delta = (delta_r, delta_t). The one perturbation used
+// everywhere in this project.
 Rigid3 Retract(const Rigid3& T_a_b, const Vector6d& delta);
 // The delta with Retract(from, delta) = to.
 Vector6d LocalDifference(const Rigid3& from, const Rigid3& to);
