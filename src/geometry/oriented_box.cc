@@ -3,7 +3,9 @@
 #include "semslam/geometry/oriented_box.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -28,9 +30,9 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   return axes;
 }
 
-// The six faces of a box as polygons, in the frame of T * box.
-std::array<Polygon, 6> Faces(const Rigid3& T_frame_box, const Eigen::Vector3d& half_size) {
-  std::array<Polygon, 6> faces;
+// The six faces of a box as polygons, in the frame that T_frame_box leads to.
+std::vector<Polygon> Faces(const Rigid3& T_frame_box, const Eigen::Vector3d& half_size) {
+  std::vector<Polygon> faces(6);
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
       Eigen::Vector3d corner;
@@ -45,28 +47,71 @@ std::array<Polygon, 6> Faces(const Rigid3& T_frame_box, const Eigen::Vector3d& h
   return faces;
 }
 
-// Keeps the part with sign * p[axis] <= limit (Sutherland and Hodgman).
-Polygon ClipAxis(const Polygon& polygon, int axis, double sign, double limit) {
+// The half-space sign * p[axis] <= limit.
+struct HalfSpace {
+  int axis;
+  double sign;
+  double limit;
+
+  // Signed distance to its border, positive outside; 0 within rounding, so that faces in one plane
+  // count once.
+  double Excess(const Eigen::Vector3d& p) const {
+    const double excess = sign * p[axis] - limit;
+    return std::abs(excess) <= kTolerance ? 0.0 : excess;
+  }
+
+  static constexpr double kTolerance = 1e-9;  // Metres.
+};
+
+// The part of a polygon in the half-space (Sutherland and Hodgman).
+Polygon ClipPolygon(const Polygon& polygon, const HalfSpace& space) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d& a = polygon[i];
     const Eigen::Vector3d& b = polygon[(i + 1) % polygon.size()];
-    const double excess_a = sign * a[axis] - limit;
-    const double excess_b = sign * b[axis] - limit;
+    const double excess_a = space.Excess(a);
+    const double excess_b = space.Excess(b);
     if (excess_a <= 0) result.push_back(a);
     if ((excess_a < 0 && excess_b > 0) || (excess_a > 0 && excess_b < 0)) {
       result.push_back(a + (b - a) * (excess_a / (excess_a - excess_b)));
+      result.back()[space.axis] = space.sign * space.limit;
     }
   }
   return result;
 }
 
-Polygon ClipToBox(Polygon polygon, const Eigen::Vector3d& half_size) {
-  for (int axis = 0; axis < 3; ++axis) {
-    polygon = ClipAxis(polygon, axis, 1.0, half_size[axis]);
-    polygon = ClipAxis(polygon, axis, -1.0, half_size[axis]);
+// The convex polygon whose corners are the given points of a plane across `axis`.
+Polygon OrderCorners(Polygon corners, int axis) {
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : corners) center += corner;
+  center /= static_cast<double>(corners.size());
+  const auto angle = [&](const Eigen::Vector3d& p) {
+    return std::atan2(p[v] - center[v], p[u] - center[u]);
+  };
+  std::sort(corners.begin(), corners.end(),
+            [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+  return corners;
+}
+
+// The part of a convex body, given by its faces, in the half-space. Where something is cut off, a
+// face closes the hole.
+std::vector<Polygon> ClipBody(const std::vector<Polygon>& faces, const HalfSpace& space) {
+  std::vector<Polygon> result;
+  Polygon cut;
+  bool cuts = false;
+  for (const Polygon& face : faces) {
+    cuts |=
+        std::any_of(face.begin(), face.end(), [&](const auto& p) { return space.Excess(p) > 0; });
+    Polygon clipped = ClipPolygon(face, space);
+    for (const Eigen::Vector3d& corner : clipped) {
+      if (space.Excess(corner) == 0) cut.push_back(corner);
+    }
+    if (clipped.size() >= 3) result.push_back(std::move(clipped));
   }
-  return polygon;
+  if (cuts && cut.size() >= 3) result.push_back(OrderCorners(std::move(cut), space.axis));
+  return result;
 }
 
 // Volume of the cone from `apex` over a planar polygon.
@@ -80,32 +125,24 @@ double ConeVolume(const Polygon& polygon, const Eigen::Vector3d& apex) {
   return std::abs(volume);
 }
 
-// The intersection is convex: cut it into cones from a point inside over its faces, which are the
-// faces of each box clipped with the other box.
+// The intersection is convex: cut it into cones from a point inside over its faces.
 double IntersectionVolume(const OrientedBox& a, const OrientedBox& b) {
-  const Rigid3 T_a_b = a.T_world_box.Inverse() * b.T_world_box;
-  const Rigid3 T_b_a = T_a_b.Inverse();
-  std::vector<Polygon> faces_a;
-  for (const Polygon& face : Faces(T_a_b, b.half_size)) {
-    faces_a.push_back(ClipToBox(face, a.half_size));
-  }
-  for (const Polygon& face : Faces(T_b_a, a.half_size)) {
-    Polygon clipped = ClipToBox(face, b.half_size);
-    for (Eigen::Vector3d& corner : clipped) corner = T_a_b * corner;
-    faces_a.push_back(std::move(clipped));
-  }
-  Eigen::Vector3d inside = Eigen::Vector3d::Zero();
-  int num_corners = 0;
-  for (const Polygon& face : faces_a) {
-    for (const Eigen::Vector3d& corner : face) {
-      inside += corner;
-      ++num_corners;
+  std::vector<Polygon> faces = Faces(a.T_world_box.Inverse() * b.T_world_box, b.half_size);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      faces = ClipBody(faces, {axis, sign, a.half_size[axis]});
     }
   }
+  Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+  std::size_t num_corners = 0;
+  for (const Polygon& face : faces) {
+    for (const Eigen::Vector3d& corner : face) inside += corner;
+    num_corners += face.size();
+  }
   if (num_corners == 0) return 0.0;
-  inside /= num_corners;
+  inside /= static_cast<double>(num_corners);
   double volume = 0;
-  for (const Polygon& face : faces_a) volume += ConeVolume(face, inside);
+  for (const Polygon& face : faces) volume += ConeVolume(face, inside);
   return volume;
 }
 
