@@ -68,7 +68,9 @@ class DistortedCamera : public testing::TestWithParam<PinholeCamera::Parameters>
 INSTANTIATE_TEST_SUITE_P(TumCameras,
                          DistortedCamera,
                          testing::Values(Tum1(), Tum2()),
-                         [](const auto& info) { return "Tum" + std::to_string(info.index + 1); });
+                         [](const auto& tested) {
+                           return "Tum" + std::to_string(tested.index + 1);
+                         });
 
 TEST_P(DistortedCamera, UndistortsAsOpenCvDoes) {
   const std::vector<cv::Point2d> pixels = GridOfPixels();
