@@ -89,7 +89,7 @@ void AppendTo(MapCloud& cloud, const Voxel& voxel) {
     normal[axis] = static_cast<float>(static_cast<std::int32_t>(voxel.normal[i]));
     color[i] = static_cast<std::uint8_t>(voxel.color[i] / weight + 0.5);
   }
-  const Eigen::Vector3d p_voxel = CoordinatesOf(voxel.key).cast<double>() + offset;
+  const Eigen::Vector3d p_voxel = CoordinatesOf(voxel.key()).cast<double>() + offset;
   cloud.positions.emplace_back((p_voxel * cloud.voxel_size).cast<float>());
   // Views from opposite sides can cancel: then any direction is as good.
   const float length = normal.norm();
@@ -171,7 +171,7 @@ MapCloud VoxelMap::Extract() const {
     }
   });
   std::sort(voxels.begin(), voxels.end(),
-            [](const Voxel* a, const Voxel* b) { return a->key < b->key; });
+            [](const Voxel* a, const Voxel* b) { return a->key() < b->key(); });
   MapCloud cloud;
   cloud.voxel_size = options_.voxel_size;
   cloud.positions.reserve(voxels.size());

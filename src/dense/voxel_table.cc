@@ -9,6 +9,8 @@ namespace semslam {
 namespace {
 
 constexpr std::size_t kMinSlots = 1024;
+constexpr std::size_t kMaxLoadNumerator = 4;  // At most 4/5 of the slots are used.
+constexpr std::size_t kMaxLoadDenominator = 5;
 
 std::array<std::uint32_t, 3> Weighted(std::uint32_t weight,
                                       const std::array<std::int32_t, 3>& value) {
@@ -58,7 +60,7 @@ Voxel* VoxelTable::FindOrCreate(std::uint64_t key, std::size_t max_voxels) {
     return found.weight == 0 && full ? nullptr : &found;
   }
   if (full) return nullptr;
-  if ((size_ + 1) * 10 > slots_.size() * 7) {
+  if ((size_ + 1) * kMaxLoadDenominator > slots_.size() * kMaxLoadNumerator) {
     Rehash(slots_.size() * 2);
     slot = SlotOf(key);
   }
@@ -88,21 +90,21 @@ Voxel& VoxelTable::Append(std::uint64_t key) {
   if (size_ == blocks_.size() * kBlockSize) blocks_.push_back(std::make_unique<Block>());
   Voxel& voxel = At(size_++);
   voxel = Voxel();
-  voxel.key = key;
+  voxel.key_halves = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   return voxel;
 }
 
 std::size_t VoxelTable::SlotOf(std::uint64_t key) {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = HashVoxelKey(key) & mask;
-  while (slots_[slot] != 0 && At(slots_[slot] - 1).key != key) slot = (slot + 1) & mask;
+  while (slots_[slot] != 0 && At(slots_[slot] - 1).key() != key) slot = (slot + 1) & mask;
   return slot;
 }
 
 void VoxelTable::Rehash(std::size_t num_slots) {
   slots_.assign(num_slots, 0);
   for (std::size_t i = 0; i < size_; ++i) {
-    slots_[SlotOf(At(i).key)] = static_cast<std::uint32_t>(i + 1);
+    slots_[SlotOf(At(i).key())] = static_cast<std::uint32_t>(i + 1);
   }
 }
 
@@ -115,7 +117,7 @@ void VoxelTable::Compact() {
   num_empty_ = 0;
   blocks_.resize((size_ + kBlockSize - 1) / kBlockSize);
   std::size_t num_slots = kMinSlots;
-  while (num_slots * 7 < size_ * 10) num_slots *= 2;
+  while (num_slots * kMaxLoadNumerator < size_ * kMaxLoadDenominator) num_slots *= 2;
   Rehash(num_slots);
 }
 

@@ -28,18 +28,19 @@ struct VoxelSample {
 };
 
 struct Voxel {
-  std::uint64_t key = 0;
-  std::uint32_t weight = 0;  // 0: empty, dropped at the next chance.
+  std::array<std::uint32_t, 2> key_halves{};  // Low, high: keeps the size a multiple of 4 only.
+  std::uint32_t weight = 0;                   // 0: empty, dropped at the next chance.
   std::array<std::uint32_t, 3> position{};
   std::array<std::uint32_t, 3> normal{};
   std::array<std::uint32_t, 3> color{};
   std::uint16_t num_views = 0;
   std::uint16_t last_pass = 0;  // The pass that counted its view last.
 
+  std::uint64_t key() const { return std::uint64_t{key_halves[1]} << 32 | key_halves[0]; }
   void Add(const VoxelSample& sample);
   void Subtract(const VoxelSample& sample);
 };
-static_assert(sizeof(Voxel) <= 56);
+static_assert(sizeof(Voxel) == 52);
 
 // Voxels by key: an open-addressing table of 4-byte numbers into blocks of voxels, so that growing
 // moves no voxel and no voxel is a heap object of its own.
