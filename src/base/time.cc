@@ -43,7 +43,8 @@ std::string FormatTime(TimeNs time, int decimals) {
       ((negative ? -time : time) + unit / 2) / unit;  // In units of the last decimal.
   TimeNs scale = 1;
   for (int i = 0; i < decimals; ++i) scale *= 10;
-  std::string text = (negative ? "-" : "") + std::to_string(rounded / scale);
+  std::string text = negative ? "-" : "";
+  text += std::to_string(rounded / scale);
   if (decimals == 0) return text;
   const std::string fraction = std::to_string(rounded % scale);
   return text + '.' + std::string(decimals - fraction.size(), '0') + fraction;
