@@ -36,7 +36,8 @@ void ReadOrb(SettingsFile& file, Settings::Orb& orb) {
   file.Require("ORBextractor.scaleFactor", &orb.scale_factor, Range::Between(1.01, 4));
   file.Require("ORBextractor.nLevels", &orb.num_levels, Range::Between(1, 32));
   file.Require("ORBextractor.iniThFAST", &orb.initial_threshold, Range::Between(1, 255));
-  file.Require("ORBextractor.minThFAST", &orb.minimum_threshold, Range::Between(1, 255));
+  file.Require("ORBextractor.minThFAST", &orb.minimum_threshold,
+               Range::Between(1, orb.initial_threshold));
 }
 
 }  // namespace

@@ -102,19 +102,17 @@ std::string Lower(std::string_view text) {
   return lower;
 }
 
-// How many characters to insert, delete or change (Levenshtein).
-int EditDistance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = std::exchange(row[0], static_cast<int>(i));
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
+// The same but for upper case, or for one letter too many or too few. Not for one that is changed:
+// Camera.fx and Camera.cx are two keys.
+bool LooksLike(std::string_view a, std::string_view b) {
+  if (a.size() < b.size()) std::swap(a, b);
+  const std::string longer = Lower(a);
+  const std::string shorter = Lower(b);
+  if (longer.size() == shorter.size()) return longer == shorter;
+  if (longer.size() != shorter.size() + 1) return false;
+  const auto [differs, unused] = std::mismatch(shorter.begin(), shorter.end(), longer.begin());
+  const auto position = differs - shorter.begin();
+  return shorter.substr(position) == longer.substr(position + 1);
 }
 
 std::string ReadText(const std::filesystem::path& path) {
@@ -254,20 +252,13 @@ void SettingsFile::Read(const std::string& key, std::string* value) {
 
 void SettingsFile::CheckPresent(const std::string& key) const {
   if (Has(key)) return;
-  constexpr int kMaxEdits = 3;
-  const Entry* nearest = nullptr;
-  std::string nearest_key;
-  int least = kMaxEdits + 1;
+  std::string message = "missing";
   for (const auto& [other, entry] : entries_) {
-    const int edits = EditDistance(Lower(key), Lower(other));
-    if (entry.is_used || edits >= least) continue;
-    least = edits;
-    nearest = &entry;
-    nearest_key = other;
+    if (entry.is_used || !LooksLike(key, other)) continue;
+    message += "; is it meant by " + other + " in line " + std::to_string(entry.line) + "?";
+    break;
   }
-  Fail(key, nearest == nullptr ? "missing"
-                               : "missing; is it meant by " + Shown(nearest_key) + " in line " +
-                                     std::to_string(nearest->line) + "?");
+  Fail(key, message);
 }
 
 void SettingsFile::Require(const std::string& key, double* value, const NumberRange& range) {
