@@ -36,14 +36,15 @@ std::optional<TimeNs> ParseTime(std::string_view seconds) {
 
 std::string FormatTime(TimeNs time, int decimals) {
   decimals = std::clamp(decimals, 0, 9);
-  TimeNs unit = 1;
+  std::uint64_t unit = 1;
   for (int i = decimals; i < 9; ++i) unit *= 10;
-  const bool negative = time < 0;
-  const TimeNs rounded =
-      ((negative ? -time : time) + unit / 2) / unit;  // In units of the last decimal.
-  TimeNs scale = 1;
+  // Unsigned, because the smallest time has no positive counterpart.
+  const std::uint64_t magnitude = time < 0 ? 0 - static_cast<std::uint64_t>(time) : time;
+  const std::uint64_t rounded = (magnitude + unit / 2) / unit;  // In units of the last decimal.
+  std::uint64_t scale = 1;
   for (int i = 0; i < decimals; ++i) scale *= 10;
-  std::string text = (negative ? "-" : "") + std::to_string(rounded / scale);
+  std::string text = time < 0 && rounded > 0 ? "-" : "";
+  text += std::to_string(rounded / scale);
   if (decimals == 0) return text;
   const std::string fraction = std::to_string(rounded % scale);
   return text + '.' + std::string(decimals - fraction.size(), '0') + fraction;
