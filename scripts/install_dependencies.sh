@@ -53,8 +53,10 @@ find_missing() {
 }
 
 missing=("${packages[@]}")
-command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
-  fail "no apt-get here; install what corresponds to these Debian packages by hand"
+for tool in dpkg-query apt-get; do
+  command -v "$tool" >/dev/null ||
+    fail "no $tool here; install what corresponds to these Debian packages by hand"
+done
 find_missing
 ((${#missing[@]})) || exit 0
 

@@ -19,4 +19,4 @@ done
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/install_dependencies.sh
 scripts/build.sh release
-ctest --preset release "${ctest_arguments[@]}"
+ctest --preset release -j "$(nproc)" "${ctest_arguments[@]}"

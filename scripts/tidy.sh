@@ -29,4 +29,6 @@ command -v clang-tidy-14 >/dev/null ||
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 cmake --preset release >/dev/null 2>&1 || cmake --preset release
-exec python3 scripts/run_tidy.py --budget "$budget" $($changed && echo --changed) "${files[@]}"
+options=(--budget "$budget")
+! $changed || options+=(--changed)
+exec python3 scripts/run_tidy.py "${options[@]}" "${files[@]}"
