@@ -30,6 +30,10 @@ find_package(Threads REQUIRED)
 add_library(semslam_flags INTERFACE)
 target_compile_options(semslam_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  # A false alarm of optimised std::string concatenation (GCC bug 105651).
+  target_compile_options(semslam_flags INTERFACE -Wno-restrict)
+endif()
 if(SEMSLAM_FILL_MATRICES_WITH_NAN)
   target_compile_definitions(semslam_flags INTERFACE EIGEN_INITIALIZE_MATRICES_BY_NAN)
 endif()

@@ -4,28 +4,39 @@
 
 #include <algorithm>
 
-#include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 namespace semslam {
+namespace {
+
+// Enough to balance uneven work, few enough for a body that needs scratch memory of its own.
+constexpr std::size_t kMaxChunks = 256;
+
+}  // namespace
 
 void ParallelFor(std::size_t count,
                  std::size_t grain,
                  int num_threads,
                  const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
-  grain = std::max<std::size_t>(grain, 1);
-  if (num_threads == 1 || count <= grain) {
-    body(0, count);
+  const std::size_t num_chunks =
+      std::clamp<std::size_t>(count / std::max<std::size_t>(grain, 1), 1, kMaxChunks);
+  const std::size_t size = count / num_chunks;
+  const std::size_t num_longer = count % num_chunks;  // The first chunks hold one item more.
+  const auto run_chunk = [&](std::size_t chunk) {
+    const std::size_t first = chunk * size + std::min(chunk, num_longer);
+    body(first, first + size + (chunk < num_longer ? 1 : 0));
+  };
+  if (num_threads == 1 || num_chunks == 1) {
+    for (std::size_t chunk = 0; chunk < num_chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  tbb::task_arena arena(num_threads <= 0 ? tbb::task_arena::automatic : num_threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, grain),
-        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
-  });
+  // TBB complains on stderr about more threads than cores.
+  const int num_cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(num_threads <= 0 ? num_cores : std::min(num_threads, num_cores));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, num_chunks, run_chunk); });
 }
 
 }  // namespace semslam

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "semslam/base/check.h"
 
@@ -59,8 +60,9 @@ Eigen::Vector2d PinholeCamera::Undistort(const Eigen::Vector2d& raw_pixel) const
 }
 
 PinholeCamera::Bounds PinholeCamera::ComputeIdealBounds() const {
-  Bounds bounds{0, 0, width() - 1.0, height() - 1.0};
-  if (!has_distortion()) return bounds;
+  if (!has_distortion()) return {0, 0, width() - 1.0, height() - 1.0};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{kInfinity, kInfinity, -kInfinity, -kInfinity};
   const auto include = [&](double x, double y) {
     const Eigen::Vector2d ideal = Undistort({x, y});
     bounds.min_x = std::min(bounds.min_x, ideal.x());

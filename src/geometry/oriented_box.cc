@@ -3,7 +3,9 @@
 #include "semslam/geometry/oriented_box.h"
 
 #include <algorithm>
-#include <array>
+#include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -11,7 +13,11 @@
 namespace semslam {
 namespace {
 
-using Polygon = std::vector<Eigen::Vector3d>;
+// A convex body. Faces list their corners counterclockwise as seen from outside.
+struct Polyhedron {
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<std::vector<int>> faces;
+};
 
 // The principal directions of the points, most extent first, as the columns of a rotation.
 Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
@@ -28,85 +34,112 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   return axes;
 }
 
-// The six faces of a box as polygons, in the frame of T * box.
-std::array<Polygon, 6> Faces(const Rigid3& T_frame_box, const Eigen::Vector3d& half_size) {
-  std::array<Polygon, 6> faces;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int side = 0; side < 2; ++side) {
-      Eigen::Vector3d corner;
-      for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-        corner[axis] = (side == 0 ? -1.0 : 1.0) * half_size[axis];
-        corner[(axis + 1) % 3] = u * half_size[(axis + 1) % 3];
-        corner[(axis + 2) % 3] = v * half_size[(axis + 2) % 3];
-        faces[2 * axis + side].push_back(T_frame_box * corner);
-      }
+// A box as a body in the frame that T_frame_box leads to. Bit k of a corner's index says on which
+// side of axis k it is.
+Polyhedron ToPolyhedron(const Rigid3& T_frame_box, const Eigen::Vector3d& half_size) {
+  Polyhedron body;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d side((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    body.corners.push_back(T_frame_box * half_size.cwiseProduct(side));
+  }
+  body.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  return body;
+}
+
+// Cuts a body with a half-space. Every corner is judged once and every edge cut once, for all faces
+// they belong to: so the result is closed also where a face lies in the border of the half-space
+// and rounding decides.
+class Clipper {
+ public:
+  // Keeps sign * p[axis] <= limit.
+  Clipper(Polyhedron body, int axis, double sign, double limit) : body_(std::move(body)) {
+    for (const Eigen::Vector3d& corner : body_.corners) {
+      excess_.push_back(sign * corner[axis] - limit);
     }
   }
-  return faces;
-}
 
-// Keeps the part with sign * p[axis] <= limit (Sutherland and Hodgman).
-Polygon ClipAxis(const Polygon& polygon, int axis, double sign, double limit) {
-  Polygon result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3d& a = polygon[i];
-    const Eigen::Vector3d& b = polygon[(i + 1) % polygon.size()];
-    const double excess_a = sign * a[axis] - limit;
-    const double excess_b = sign * b[axis] - limit;
-    if (excess_a <= 0) result.push_back(a);
-    if ((excess_a < 0 && excess_b > 0) || (excess_a > 0 && excess_b < 0)) {
-      result.push_back(a + (b - a) * (excess_a / (excess_a - excess_b)));
+  Polyhedron Clip() && {
+    std::vector<std::vector<int>> faces;
+    for (const std::vector<int>& face : body_.faces) faces.push_back(ClipFace(face));
+    while (!next_on_cut_.empty()) faces.push_back(TakeLoop());
+    std::erase_if(faces, [](const std::vector<int>& face) { return face.size() < 3; });
+    body_.faces = std::move(faces);
+    return std::move(body_);
+  }
+
+ private:
+  bool IsInside(int corner) const { return excess_[corner] <= 0; }
+
+  // Sutherland and Hodgman; notes the new edges for the face that closes the hole.
+  std::vector<int> ClipFace(const std::vector<int>& face) {
+    std::vector<int> kept;
+    std::vector<int> exits;
+    std::vector<int> entries;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const int a = face[i];
+      const int b = face[(i + 1) % face.size()];
+      if (IsInside(a)) kept.push_back(a);
+      if (IsInside(a) == IsInside(b)) continue;
+      kept.push_back(CutEdge(a, b));
+      (IsInside(a) ? exits : entries).push_back(kept.back());
     }
+    // Exits and entries alternate; the way outside may begin before the first corner.
+    const std::size_t shift = !face.empty() && !IsInside(face[0]) ? 1 : 0;
+    for (std::size_t i = 0; i < exits.size(); ++i) {
+      next_on_cut_[entries[(i + shift) % entries.size()]] = exits[i];
+    }
+    return kept;
   }
-  return result;
-}
 
-Polygon ClipToBox(Polygon polygon, const Eigen::Vector3d& half_size) {
-  for (int axis = 0; axis < 3; ++axis) {
-    polygon = ClipAxis(polygon, axis, 1.0, half_size[axis]);
-    polygon = ClipAxis(polygon, axis, -1.0, half_size[axis]);
+  int CutEdge(int a, int b) {
+    const auto [entry, is_new] =
+        cut_edges_.try_emplace(std::minmax(a, b), static_cast<int>(body_.corners.size()));
+    if (is_new) {
+      const double fraction = excess_[a] / (excess_[a] - excess_[b]);
+      const Eigen::Vector3d corner =
+          body_.corners[a] + fraction * (body_.corners[b] - body_.corners[a]);
+      body_.corners.push_back(corner);
+    }
+    return entry->second;
   }
-  return polygon;
-}
 
-// Volume of the cone from `apex` over a planar polygon.
-double ConeVolume(const Polygon& polygon, const Eigen::Vector3d& apex) {
+  std::vector<int> TakeLoop() {
+    std::vector<int> loop;
+    for (auto edge = next_on_cut_.begin(); edge != next_on_cut_.end();) {
+      loop.push_back(edge->first);
+      const int next = edge->second;
+      next_on_cut_.erase(edge);
+      edge = next_on_cut_.find(next);
+    }
+    return loop;
+  }
+
+  Polyhedron body_;
+  std::vector<double> excess_;  // Of the corners before the cut; positive outside.
+  std::map<std::pair<int, int>, int> cut_edges_;
+  std::map<int, int> next_on_cut_;
+};
+
+// By the divergence theorem.
+double Volume(const Polyhedron& body) {
   double volume = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const Eigen::Vector3d a = polygon[0] - apex;
-    const Eigen::Vector3d b = polygon[i - 1] - apex;
-    volume += a.cross(b).dot(polygon[i] - apex) / 6.0;
-  }
-  return std::abs(volume);
-}
-
-// The intersection is convex: cut it into cones from a point inside over its faces, which are the
-// faces of each box clipped with the other box.
-double IntersectionVolume(const OrientedBox& a, const OrientedBox& b) {
-  const Rigid3 T_a_b = a.T_world_box.Inverse() * b.T_world_box;
-  const Rigid3 T_b_a = T_a_b.Inverse();
-  std::vector<Polygon> faces_a;
-  for (const Polygon& face : Faces(T_a_b, b.half_size)) {
-    faces_a.push_back(ClipToBox(face, a.half_size));
-  }
-  for (const Polygon& face : Faces(T_b_a, a.half_size)) {
-    Polygon clipped = ClipToBox(face, b.half_size);
-    for (Eigen::Vector3d& corner : clipped) corner = T_a_b * corner;
-    faces_a.push_back(std::move(clipped));
-  }
-  Eigen::Vector3d inside = Eigen::Vector3d::Zero();
-  int num_corners = 0;
-  for (const Polygon& face : faces_a) {
-    for (const Eigen::Vector3d& corner : face) {
-      inside += corner;
-      ++num_corners;
+  for (const std::vector<int>& face : body.faces) {
+    const Eigen::Vector3d& first = body.corners[face[0]];
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      volume += first.dot(body.corners[face[i - 1]].cross(body.corners[face[i]])) / 6.0;
     }
   }
-  if (num_corners == 0) return 0.0;
-  inside /= num_corners;
-  double volume = 0;
-  for (const Polygon& face : faces_a) volume += ConeVolume(face, inside);
   return volume;
+}
+
+double IntersectionVolume(const OrientedBox& a, const OrientedBox& b) {
+  Polyhedron body = ToPolyhedron(a.T_world_box.Inverse() * b.T_world_box, b.half_size);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      body = Clipper(std::move(body), axis, sign, a.half_size[axis]).Clip();
+    }
+  }
+  return Volume(body);
 }
 
 }  // namespace
@@ -133,7 +166,8 @@ OrientedBox FitOrientedBox(std::span<const Eigen::Vector3d> points) {
 double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b) {
   const double sum = a.Volume() + b.Volume();
   if (sum <= 0) return 0.0;
-  const double intersection = std::min({IntersectionVolume(a, b), a.Volume(), b.Volume()});
+  const double intersection =
+      std::clamp(IntersectionVolume(a, b), 0.0, std::min(a.Volume(), b.Volume()));
   return intersection / (sum - intersection);
 }
 

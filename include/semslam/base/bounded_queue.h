@@ -27,7 +27,10 @@ class BoundedQueue {
     std::unique_lock lock(mutex_);
     // The predicate's value is what wait returns, also after a stop: so the stop is tested as well.
     has_room_.wait(lock, stop, [this] { return closed_ || items_.size() < capacity_; });
-    if (closed_ || stop.stop_requested()) return false;
+    if (closed_ || stop.stop_requested()) {
+      has_room_.notify_one();  // In case this thread's wake-up was meant for another producer.
+      return false;
+    }
     items_.push_back(std::move(item));
     lock.unlock();
     has_items_.notify_one();
@@ -49,7 +52,10 @@ class BoundedQueue {
   std::optional<T> Pop(std::stop_token stop = {}) {
     std::unique_lock lock(mutex_);
     has_items_.wait(lock, stop, [this] { return closed_ || !items_.empty(); });
-    if (items_.empty() || stop.stop_requested()) return std::nullopt;
+    if (items_.empty() || stop.stop_requested()) {
+      has_items_.notify_one();  // In case this thread's wake-up was meant for another consumer.
+      return std::nullopt;
+    }
     std::optional<T> item;
     if (order_ == QueueOrder::kOldestFirst) {
       item = std::move(items_.front());

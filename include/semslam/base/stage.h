@@ -90,8 +90,13 @@ class Stage {
   }
 
   bool ProcessInline(Input input) {
-    if (finished_) return false;
-    process_(std::move(input));
+    if (finished_ || failed()) return false;
+    try {
+      process_(std::move(input));
+    } catch (...) {
+      failed_.store(true);
+      throw;
+    }
     return true;
   }
 
@@ -104,10 +109,11 @@ class Stage {
     } catch (...) {  // Carried to the caller of Finish.
       error_ = std::current_exception();
       failed_.store(true);
-      queue_.Close();
-      queue_.Clear();
+      --num_unfinished_;
     }
-    num_unfinished_.store(0);
+    queue_.Close();
+    // Not set to 0: a Submit that is being refused now takes its own count back.
+    num_unfinished_ -= static_cast<int>(queue_.Clear());
   }
 
   void Join() noexcept {

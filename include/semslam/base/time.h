@@ -24,7 +24,7 @@ constexpr TimeNs FromSeconds(double seconds) {
 // decimal number (digits beyond nanoseconds are cut) that fits.
 std::optional<TimeNs> ParseTime(std::string_view seconds);
 
-// 1305031102175304000 -> "1305031102.175304".
+// 1305031102175304000 -> "1305031102.175304". Rounded to the nearest, 0 to 9 decimals.
 std::string FormatTime(TimeNs time, int decimals = 6);
 
 }  // namespace semslam

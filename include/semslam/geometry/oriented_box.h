@@ -24,7 +24,7 @@ struct OrientedBox {
 // input: an empty box.
 OrientedBox FitOrientedBox(std::span<const Eigen::Vector3d> points);
 
-// Volume of the intersection over volume of the union, by clipping one box with the other's faces.
+// Volume of the intersection over volume of the union, by cutting one box with the other's faces.
 // In [0, 1].
 double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b);
 

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace semslam {
+
+// Integer coordinates of a voxel, and its 64-bit key. Keys order voxels by x, then y, then z.
+struct VoxelKey {
+  static constexpr std::int64_t kLimit = std::int64_t{1}
+                                         << 20;  // Coordinates in [-kLimit, kLimit).
+
+  // Nothing for points that are not finite or beyond the limit (8 km at 8 mm).
+  static std::optional<Eigen::Vector3i> Coordinates(const Eigen::Vector3d& p_world,
+                                                    double voxel_size);
+  static std::uint64_t Pack(const Eigen::Vector3i& voxel) {
+    constexpr int kBits = 21;
+    const auto shifted = [](int value) { return static_cast<std::uint64_t>(value + kLimit); };
+    return shifted(voxel.x()) << (2 * kBits) | shifted(voxel.y()) << kBits | shifted(voxel.z());
+  }
+};
+
+// Finds the point of a cloud (at most one a voxel) that lies at a place in the world. Immutable
+// after construction; safe to share.
+class VoxelIndex {
+ public:
+  VoxelIndex() = default;
+  // Of several points in one voxel the first is found.
+  VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_size);
+
+  // Index of the point in the voxel of p_world; or of the nearest one in the 26 voxels around it.
+  // Nothing if all are empty.
+  std::optional<std::uint32_t> Find(const Eigen::Vector3d& p_world) const;
+
+ private:
+  std::optional<std::uint32_t> FindKey(std::uint64_t key) const;
+  std::optional<std::uint32_t> FindNear(const Eigen::Vector3d& p_world,
+                                        const Eigen::Vector3i& voxel) const;
+
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t index;
+  };
+  double voxel_size_ = 1;
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> slots_;  // Hash table of entry number + 1; 0: empty.
+  std::vector<Eigen::Vector3f> positions_;
+};
+
+}  // namespace semslam

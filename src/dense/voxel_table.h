@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace semslam {
+
+// Spreads neighbouring voxels over the table (the finaliser of SplitMix64).
+inline std::uint64_t HashVoxelKey(std::uint64_t key) {
+  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  key = (key ^ (key >> 27)) * 0x94d049bb133111ebULL;
+  return key ^ (key >> 31);
+}
+
+// One observation's share of a voxel's sums. Everything is small enough that 2^17 observations of
+// the largest weight fit into 32 bits; the sums are taken modulo 2^32, so that subtracting undoes
+// adding whatever came between.
+struct VoxelSample {
+  std::uint32_t weight = 0;
+  std::array<std::int32_t, 3> position{};  // Within the voxel, 1/256 of its size, [0, 256).
+  std::array<std::int32_t, 3> normal{};    // Unit vector times 127.
+  std::array<std::int32_t, 3> color{};     // [0, 256).
+};
+
+struct Voxel {
+  std::array<std::uint32_t, 2> key_halves{};  // Low, high: keeps the size a multiple of 4 only.
+  std::uint32_t weight = 0;                   // 0: empty, dropped at the next chance.
+  std::array<std::uint32_t, 3> position{};
+  std::array<std::uint32_t, 3> normal{};
+  std::array<std::uint32_t, 3> color{};
+  std::uint16_t num_views = 0;
+  std::uint16_t last_pass = 0;  // The pass that counted its view last.
+
+  std::uint64_t key() const { return std::uint64_t{key_halves[1]} << 32 | key_halves[0]; }
+  void Add(const VoxelSample& sample);
+  void Subtract(const VoxelSample& sample);
+};
+static_assert(sizeof(Voxel) == 52);
+
+// Voxels by key: an open-addressing table of 4-byte numbers into blocks of voxels, so that growing
+// moves no voxel and no voxel is a heap object of its own.
+class VoxelTable {
+ public:
+  // Null if there is none.
+  Voxel* Find(std::uint64_t key);
+  // Makes an empty one if there is none; null if that would exceed max_voxels.
+  Voxel* FindOrCreate(std::uint64_t key, std::size_t max_voxels);
+
+  // A new number for a run over one keyframe's points, to count its view of a voxel once.
+  std::uint16_t BeginPass();
+  // Tells that a voxel's weight fell to zero.
+  void CountEmptied() { ++num_empty_; }
+  void CountRefilled() { --num_empty_; }
+  // Drops the empty voxels if they are many.
+  void CompactIfSparse();
+
+  std::size_t num_voxels() const { return size_ - num_empty_; }
+  std::size_t memory_bytes() const;
+
+  // Calls visit(const Voxel&) for every voxel that is not empty, in no particular order.
+  template <typename Visit>
+  void ForEach(Visit&& visit) const {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const Voxel& voxel = (*blocks_[i / kBlockSize])[i % kBlockSize];
+      if (voxel.weight != 0) visit(voxel);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBlockSize = 4096;
+  using Block = std::array<Voxel, kBlockSize>;
+
+  Voxel& At(std::size_t number) { return (*blocks_[number / kBlockSize])[number % kBlockSize]; }
+  Voxel& Append(std::uint64_t key);
+  std::size_t SlotOf(std::uint64_t key);  // Holding the key, or the empty one where it belongs.
+  void Rehash(std::size_t num_slots);
+  void Compact();
+
+  std::vector<std::uint32_t> slots_;  // Number + 1; 0: free. A power of two of them, or none.
+  std::vector<std::unique_ptr<Block>> blocks_;
+  std::size_t size_ = 0;
+  std::size_t num_empty_ = 0;
+  std::uint16_t pass_ = 0;
+};
+
+}  // namespace semslam
