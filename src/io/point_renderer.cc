@@ -69,28 +69,40 @@ void DrawDisc(const Eigen::Vector2f& center,
   }
 }
 
-// Gives a pixel without a point that of a neighbour, if most of its neighbours have one: far
-// surfaces have gaps between their points.
+// The first pixel with a point within a few steps; nothing if there is none.
+std::optional<cv::Point> FindPoint(const cv::Mat& points, cv::Point pixel, cv::Point step) {
+  constexpr int kMaxSteps = 4;
+  const cv::Rect bounds(0, 0, points.cols, points.rows);
+  for (int i = 0; i < kMaxSteps; ++i) {
+    pixel += step;
+    if (!bounds.contains(pixel)) return std::nullopt;
+    if (points.at<std::int32_t>(pixel) != PointImage::kNone) return pixel;
+  }
+  return std::nullopt;
+}
+
+// Gives a pixel without a point the point beside it, if it lies in a gap of a surface: with points
+// of about the same depth on both sides along two of the four axes. Far surfaces have such gaps.
 void FillGaps(PointImage& image) {
   const cv::Mat points = image.points.clone();
   const cv::Mat depths = image.depths.clone();
-  constexpr int kMinNeighbours = 5;
-  for (int y = 1; y + 1 < points.rows; ++y) {
-    for (int x = 1; x + 1 < points.cols; ++x) {
+  const std::array<cv::Point, 4> axes = {{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+  constexpr float kMaxRatio = 1.05F;
+  constexpr int kMinAxes = 2;
+  for (int y = 0; y < points.rows; ++y) {
+    for (int x = 0; x < points.cols; ++x) {
       if (points.at<std::int32_t>(y, x) != PointImage::kNone) continue;
-      int num_neighbours = 0;
-      cv::Point farthest(x, y);  // Behind an edge, not before it.
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          const cv::Point p(x + dx, y + dy);
-          if (points.at<std::int32_t>(p) == PointImage::kNone) continue;
-          ++num_neighbours;
-          if (num_neighbours == 1 || depths.at<float>(p) > depths.at<float>(farthest)) farthest = p;
-        }
+      int num_axes = 0;
+      for (const cv::Point& axis : axes) {
+        const std::optional<cv::Point> a = FindPoint(points, {x, y}, axis);
+        const std::optional<cv::Point> b = a ? FindPoint(points, {x, y}, -axis) : std::nullopt;
+        if (!b) continue;
+        const auto [near, far] = std::minmax(depths.at<float>(*a), depths.at<float>(*b));
+        if (far > kMaxRatio * near || ++num_axes < kMinAxes) continue;
+        image.points.at<std::int32_t>(y, x) = points.at<std::int32_t>(*a);
+        image.depths.at<float>(y, x) = depths.at<float>(*a);
+        break;
       }
-      if (num_neighbours < kMinNeighbours) continue;
-      image.points.at<std::int32_t>(y, x) = points.at<std::int32_t>(farthest);
-      image.depths.at<float>(y, x) = depths.at<float>(farthest);
     }
   }
 }
@@ -220,8 +232,7 @@ PointImage RenderPoints(std::span<const Eigen::Vector3f> positions,
     if (!is_near_picture) continue;
     DrawDisc(center, radius, p_camera.z(), static_cast<std::int32_t>(i), image);
   }
-  constexpr int kNumFillings = 3;
-  for (int i = 0; i < kNumFillings; ++i) FillGaps(image);
+  FillGaps(image);
   image.lighting = EyeDomeLighting(image.depths, std::max(1, camera.width / 700));
   return image;
 }
