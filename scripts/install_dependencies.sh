@@ -44,11 +44,12 @@ fail() {
 find_missing() {
   missing=()
   local installed
-  installed=" $(dpkg-query -W -f='${db:Status-Status}:${Package}\n' "${packages[@]}" 2>/dev/null |
-    sed -n 's/^installed://p' | tr '\n' ' ')"
+  # dpkg-query fails if it does not know one of them, and tells of the others all the same.
+  installed=$({ dpkg-query -W -f='${db:Status-Status}:${Package}\n' "${packages[@]}" || true; } \
+    2>/dev/null | sed -n 's/^installed://p' | tr '\n' ' ')
   local package
   for package in "${packages[@]}"; do
-    [[ "$installed" == *" $package "* ]] || missing+=("$package")
+    [[ " $installed" == *" $package "* ]] || missing+=("$package")
   done
 }
 
