@@ -46,7 +46,8 @@ SurfacePoint LocateHit(const Scene& scene, const Hit& hit, const Ray& ray, float
   }
   point.incidence = std::min(cosine, 1.0F);
   // Between the patch's short and long side, as a texture sample is round and the patch is not.
-  point.footprint = hit.distance * ray_norm * pixel_angle / std::sqrt(std::max(cosine, 0.05F));
+  // Half a pixel more than the patch: lenses of such cameras are soft.
+  point.footprint = 1.5F * hit.distance * ray_norm * pixel_angle / std::sqrt(std::max(cosine, 0.05F));
   return point;
 }
 

@@ -169,6 +169,7 @@ TEST(Renderer, CornersOfAChessboardAreWhereOpenCvProjectsThem) {
 
   cv::Mat gray;
   cv::cvtColor(image.radiance, gray, cv::COLOR_BGR2GRAY);
+  cv::GaussianBlur(gray, gray, {}, 1.0);  // The corner finder wants soft edges.
   gray.convertTo(gray, CV_8U, 200);
   std::vector<cv::Point2f> found(expected.begin(), expected.end());
   for (cv::Point2f& corner : found) corner += cv::Point2f(0.8F, -0.7F);
