@@ -25,7 +25,7 @@ using testing::ReadAll;
 using testing::Rigid3Near;
 using testing::TemporaryFolder;
 
-// A desk of two frames, written once for all tests.
+// A desk of two frames, written into a folder.
 class ClipWriterTest : public ::testing::Test {
  protected:
   ClipWriterTest() : clip_(DeskClipOptions(2)) { WriteClip(clip_, folder_.path(), {}); }
