@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/render/clip_writer.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/base/parallel.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/trajectory_io.h"
 
@@ -17,6 +18,8 @@ namespace semslam {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kFramesAtOnce = 4;
 
 void WritePng(const fs::path& path, const cv::Mat& image) {
   constexpr int kFastest =
@@ -90,13 +93,14 @@ struct FrameLists {
   std::string associations;
   Trajectory trajectory;
 
-  void Add(const RenderedFrame& frame, const std::string& stamp) {
+  void Add(TimeNs time, const Rigid3& T_world_camera) {
+    const std::string stamp = FormatTime(time);
     const std::string color_entry = stamp + " rgb/" + stamp + ".png";
     const std::string depth_entry = stamp + " depth/" + stamp + ".png";
     color += color_entry + "\n";
     depth += depth_entry + "\n";
     associations += color_entry + " " + depth_entry + "\n";
-    trajectory.push_back({frame.time, frame.T_world_camera});
+    trajectory.push_back({time, T_world_camera});
   }
 };
 
@@ -113,6 +117,21 @@ void WriteClassNames(const DetectionOptions& options, const fs::path& path) {
   WriteFileAtomically(path, names);
 }
 
+void WriteFrame(const RenderedClip& clip,
+                std::size_t index,
+                const fs::path& folder,
+                const DetectionOptions& options) {
+  const RenderedFrame frame = clip.Frame(index);
+  const std::string stamp = FormatTime(frame.time);
+  WritePng(folder / "rgb" / (stamp + ".png"), frame.color);
+  WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u);
+  WritePng(folder / "labels" / (stamp + ".png"), frame.ideal.labels);
+  const std::vector<TrueDetection> detections =
+      DetectFromLabels(frame.ideal.labels, clip.instances(), clip.options().seed, index, options);
+  WriteFileAtomically(folder / "detections" / (stamp + ".txt"),
+                      DetectionsText(detections, frame.color.size()));
+}
+
 }  // namespace
 
 void WriteClip(const RenderedClip& clip,
@@ -125,18 +144,15 @@ void WriteClip(const RenderedClip& clip,
   WriteFileAtomically(folder / "instances.json", InstancesText(clip));
   WriteClassNames(detections, folder / "detections" / "classes.names");
   FrameLists lists;
-  for (std::size_t i = 0; i < clip.num_frames(); ++i) {
-    const RenderedFrame frame = clip.Frame(i);
-    const std::string stamp = FormatTime(frame.time);
-    WritePng(folder / "rgb" / (stamp + ".png"), frame.color);
-    WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u);
-    WritePng(folder / "labels" / (stamp + ".png"), frame.ideal.labels);
-    const std::vector<TrueDetection> found =
-        DetectFromLabels(frame.ideal.labels, clip.instances(), clip.options().seed, i, detections);
-    WriteFileAtomically(folder / "detections" / (stamp + ".txt"),
-                        DetectionsText(found, frame.color.size()));
-    lists.Add(frame, stamp);
-    if (progress) progress(i + 1);
+  // Whole frames side by side: encoding the images does not run in parallel by itself.
+  for (std::size_t first = 0; first < clip.num_frames(); first += kFramesAtOnce) {
+    const std::size_t count = std::min(kFramesAtOnce, clip.num_frames() - first);
+    ParallelFor(count, 1, clip.options().num_threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) WriteFrame(clip, first + i, folder, detections);
+    });
+    for (std::size_t i = first; i < first + count; ++i)
+      lists.Add(clip.Time(i), clip.T_world_camera(i));
+    if (progress) progress(first + count);
   }
   WriteLists(lists, folder);
 }

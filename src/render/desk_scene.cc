@@ -57,9 +57,9 @@ void AddRoom(DeskBuilder& desk) {
   desk.Fix(MakeWall(kWidth, kHeight, desk.NextSeed()), At({0, kWallY - kDepth, 0}, 180));
   desk.Fix(MakeWall(kDepth, kHeight, desk.NextSeed()), At({-0.5 * kWidth, middle_y, 0}, 90));
   desk.Fix(MakeWall(kDepth, kHeight, desk.NextSeed()), At({0.5 * kWidth, middle_y, 0}, -90));
-  desk.scene().SetAmbient(Vector3f(0.34F, 0.32F, 0.30F), Vector3f(0.15F, 0.16F, 0.17F));
-  desk.scene().AddLight({{0.7F, -1.3F, 2.55F}, {1.35F, 1.5F, 1.6F}, 0.28F});  // Lamp.
-  desk.scene().AddLight({{-2.6F, -0.9F, 1.9F}, {2.1F, 1.9F, 1.75F}, 0.45F});  // Window.
+  desk.scene().SetAmbient(Vector3f(0.27F, 0.26F, 0.25F), Vector3f(0.12F, 0.13F, 0.14F));
+  desk.scene().AddLight({{0.7F, -1.3F, 2.55F}, {1.75F, 1.95F, 2.1F}, 0.25F});  // Lamp.
+  desk.scene().AddLight({{-2.6F, -0.9F, 1.9F}, {3.4F, 3.1F, 2.9F}, 0.4F});     // Window.
 }
 
 // What hangs on the wall between x = -1.3 and x = 1.3.

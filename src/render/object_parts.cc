@@ -25,7 +25,7 @@ Material Plastic(const Eigen::Vector3f& color, float specular) {
 
 Material GrainyPlastic(const Eigen::Vector3f& color, std::uint64_t seed) {
   const NoiseStyle style = {
-      .color = color, .contrast = 0.12F, .period = 24, .num_octaves = 3, .roughness = 0.8F};
+      .color = color, .contrast = 0.06F, .period = 24, .num_octaves = 3, .roughness = 0.8F};
   Material material = Printed(DrawNoise({128, 128}, style, seed), 0.12F, 0.12F);
   material.specular = 0.08F;
   material.shininess = 15;

@@ -176,10 +176,10 @@ Object MakeFloor(float width, float depth, std::uint64_t seed) {
 
 Object MakeWall(float width, float height, std::uint64_t seed) {
   const NoiseStyle plaster = {.color = {0.78F, 0.83F, 0.85F},
-                              .contrast = 0.09F,
-                              .period = 20,
+                              .contrast = 0.07F,
+                              .period = 24,
                               .num_octaves = 4,
-                              .roughness = 0.8F};
+                              .roughness = 0.95F};
   return {"wall",
           {{MakeUpright(width, height, {0, 0, 0.5F * height}),
             Printed(DrawNoise({512, 512}, plaster, seed), 1.0F, 1.0F)}}};

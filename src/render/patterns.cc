@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <utility>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -17,46 +18,66 @@
 namespace semslam {
 namespace {
 
-float LatticeValue(std::uint64_t seed, int x, int y) {
-  return UnitFloat(HashOf(seed, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y)));
-}
-
 float SmoothStep(float t) { return t * t * (3.0F - 2.0F * t); }
 
-// Value noise in [0, 1] that repeats after `period` in each direction.
-float ValueNoise(std::uint64_t seed, const Eigen::Vector2f& at, const Eigen::Vector2i& period) {
-  const int x0 = static_cast<int>(std::floor(at.x()));
-  const int y0 = static_cast<int>(std::floor(at.y()));
-  const float wx = SmoothStep(at.x() - static_cast<float>(x0));
-  const float wy = SmoothStep(at.y() - static_cast<float>(y0));
-  const auto value = [&](int x, int y) {
-    return LatticeValue(seed, (x % period.x() + period.x()) % period.x(),
-                        (y % period.y() + period.y()) % period.y());
-  };
-  const float top = value(x0, y0) * (1 - wx) + value(x0 + 1, y0) * wx;
-  const float bottom = value(x0, y0 + 1) * (1 - wx) + value(x0 + 1, y0 + 1) * wx;
-  return top * (1 - wy) + bottom * wy;
-}
-
-// Sum of octaves, in about [-1, 1]. `unit`: position in [0, 1) x [0, 1).
-float FractalNoise(std::uint64_t seed,
-                   const Eigen::Vector2f& unit,
-                   Eigen::Vector2i period,
-                   int num_octaves,
-                   float roughness) {
-  float sum = 0;
-  float total = 0;
-  float strength = 1;
-  for (int octave = 0; octave < num_octaves; ++octave) {
-    sum +=
-        strength *
-        (2.0F * ValueNoise(seed + octave, unit.cwiseProduct(period.cast<float>()), period) - 1.0F);
-    total += strength;
-    strength *= roughness;
-    period *= 2;
+// Value noise that repeats over the unit square: random values at `period` x `period` points, and a
+// smooth surface through them.
+class ValueNoise {
+ public:
+  ValueNoise(std::uint64_t seed, const Eigen::Vector2i& period) : period_(period) {
+    for (int y = 0; y < period.y(); ++y) {
+      for (int x = 0; x < period.x(); ++x) {
+        values_.push_back(
+            UnitFloat(HashOf(seed, static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y))));
+      }
+    }
   }
-  return sum / total * 1.6F;
-}
+
+  // In [0, 1], at a point of [0, 1) x [0, 1).
+  float At(const Eigen::Vector2f& unit) const {
+    const Eigen::Vector2f at = unit.cwiseProduct(period_.cast<float>());
+    const int x0 = std::min(static_cast<int>(at.x()), period_.x() - 1);
+    const int y0 = std::min(static_cast<int>(at.y()), period_.y() - 1);
+    const int x1 = x0 + 1 == period_.x() ? 0 : x0 + 1;
+    const int y1 = y0 + 1 == period_.y() ? 0 : y0 + 1;
+    const float wx = SmoothStep(at.x() - static_cast<float>(x0));
+    const float wy = SmoothStep(at.y() - static_cast<float>(y0));
+    const float top = Value(x0, y0) * (1 - wx) + Value(x1, y0) * wx;
+    const float bottom = Value(x0, y1) * (1 - wx) + Value(x1, y1) * wx;
+    return top * (1 - wy) + bottom * wy;
+  }
+
+ private:
+  float Value(int x, int y) const { return values_[static_cast<std::size_t>(y) * period_.x() + x]; }
+
+  Eigen::Vector2i period_;
+  std::vector<float> values_;
+};
+
+// Sum of octaves of value noise, in about [-1, 1].
+class FractalNoise {
+ public:
+  FractalNoise(std::uint64_t seed, Eigen::Vector2i period, int num_octaves, float roughness) {
+    float strength = 1;
+    for (int octave = 0; octave < num_octaves; ++octave) {
+      octaves_.push_back({ValueNoise(seed + octave, period), strength});
+      total_ += strength;
+      strength *= roughness;
+      period *= 2;
+    }
+  }
+
+  float At(const Eigen::Vector2f& unit) const {
+    constexpr float kSpread = 1.6F;  // Sums of octaves seldom come near their limits.
+    float sum = 0;
+    for (const auto& [noise, strength] : octaves_) sum += strength * (2.0F * noise.At(unit) - 1.0F);
+    return kSpread * sum / total_;
+  }
+
+ private:
+  std::vector<std::pair<ValueNoise, float>> octaves_;
+  float total_ = 0;
+};
 
 cv::Vec3b ToPixel(const Eigen::Vector3f& color, float brightness) {
   cv::Vec3b pixel;
@@ -84,32 +105,34 @@ cv::Mat PaintPixels(cv::Size size, const Color& color) {
 }  // namespace
 
 cv::Mat DrawNoise(cv::Size size, const NoiseStyle& style, std::uint64_t seed) {
+  const FractalNoise noise(seed, Eigen::Vector2i::Constant(style.period), style.num_octaves,
+                           style.roughness);
   return PaintPixels(size, [&](const Eigen::Vector2f& unit) {
-    const float noise = FractalNoise(seed, unit, Eigen::Vector2i::Constant(style.period),
-                                     style.num_octaves, style.roughness);
-    return ToPixel(style.color, 1.0F + style.contrast * noise);
+    return ToPixel(style.color, 1.0F + style.contrast * noise.At(unit));
   });
 }
 
 cv::Mat DrawWood(cv::Size size, const Eigen::Vector3f& color, std::uint64_t seed) {
+  // Rings of a trunk cut along its axis, bent by slow noise, with fine pores along the grain.
+  const FractalNoise bend_noise(seed, {2, 3}, 3, 0.5F);
+  const FractalNoise pore_noise(seed + 50, {12, 150}, 2, 0.7F);
+  const FractalNoise knot_noise(seed + 90, {40, 60}, 2, 0.5F);
   return PaintPixels(size, [&](const Eigen::Vector2f& unit) {
-    // Rings of a trunk cut along its axis, bent by slow noise, with fine pores along the grain.
-    const float bend = FractalNoise(seed, unit, {2, 3}, 3, 0.5F);
+    const float bend = bend_noise.At(unit);
     const float ring = std::sin(2.0F * std::numbers::pi_v<float> * (9.0F * unit.y() + 1.5F * bend));
-    const float pores = FractalNoise(seed + 50, unit, {12, 150}, 2, 0.7F);
-    const float knots = FractalNoise(seed + 90, unit, {40, 60}, 2, 0.5F);
-    const float dark = knots > 0.75F ? 0.25F : 0.0F;
-    return ToPixel(color, 1.0F + 0.10F * ring + 0.16F * pores + 0.06F * bend - dark);
+    const float dark = knot_noise.At(unit) > 0.75F ? 0.25F : 0.0F;
+    return ToPixel(color, 1.0F + 0.08F * ring + 0.14F * pore_noise.At(unit) + 0.06F * bend - dark);
   });
 }
 
 cv::Mat DrawCarpet(cv::Size size, const Eigen::Vector3f& color, std::uint64_t seed) {
+  const ValueNoise fleck_noise(seed, {90, 90});
+  const ValueNoise loops(seed + 1, {200, 200});
+  const FractalNoise stains(seed + 2, {5, 5}, 3, 0.5F);
   return PaintPixels(size, [&](const Eigen::Vector2f& unit) {
-    const float fleck = ValueNoise(seed, unit * 90.0F, {90, 90});
-    const float loops = ValueNoise(seed + 1, unit * 200.0F, {200, 200});
-    const float stains = FractalNoise(seed + 2, unit, {5, 5}, 3, 0.5F);
+    const float fleck = fleck_noise.At(unit);
     const float brightness = fleck > 0.78F ? 1.5F : (fleck < 0.2F ? 0.6F : 1.0F);
-    return ToPixel(color, brightness * (0.8F + 0.4F * loops) + 0.1F * stains);
+    return ToPixel(color, brightness * (0.8F + 0.4F * loops.At(unit)) + 0.1F * stains.At(unit));
   });
 }
 

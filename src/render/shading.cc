@@ -46,7 +46,9 @@ SurfacePoint LocateHit(const Scene& scene, const Hit& hit, const Ray& ray, float
   }
   point.incidence = std::min(cosine, 1.0F);
   // Between the patch's short and long side, as a texture sample is round and the patch is not.
-  point.footprint = hit.distance * ray_norm * pixel_angle / std::sqrt(std::max(cosine, 0.05F));
+  // Half a pixel more than the patch: lenses of such cameras are soft.
+  point.footprint =
+      1.5F * hit.distance * ray_norm * pixel_angle / std::sqrt(std::max(cosine, 0.05F));
   return point;
 }
 
@@ -74,6 +76,7 @@ Eigen::Vector3f Shade(const Scene& scene,
     diffuse += arriving;
     if (material.specular <= 0) continue;
     const float alignment = std::max(0.0F, point.normal.dot((direction + to_viewer).normalized()));
+    if (alignment * material.shininess < material.shininess - 7.0F) continue;  // Below 0.1 %.
     highlight += arriving * (material.specular * std::pow(alignment, material.shininess));
   }
   const Eigen::Vector3f albedo = Albedo(material, point);

@@ -43,8 +43,8 @@ class RenderedClip : public FrameSource {
     double fps = 30;  // Frames a second.
     PinholeCamera::Parameters camera = CameraByName("TUM1");
     double depth_factor = 5000;  // Depth image units a metre.
-    ColorSensorOptions color;
-    DepthSensorOptions depth;
+    ColorSensorOptions color = {};
+    DepthSensorOptions depth = {};
     int num_threads = 0;  // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
     void MakeClean();

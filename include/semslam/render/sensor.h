@@ -46,9 +46,9 @@ struct FrameMotion {
   std::uint64_t seed = 0;   // Of this clip.
   std::uint64_t frame = 0;  // Number; with the seed it determines all noise.
   double time_s = 0;        // Since the start.
-  Rigid3 T_world_camera;
-  Rigid3 T_world_camera_open;   // At the start of the exposure, which is centred on time_s.
-  Rigid3 T_world_camera_close;  // At its end.
+  Rigid3 T_world_camera = {};
+  Rigid3 T_world_camera_open = {};   // At the start of the exposure, which is centred on time_s.
+  Rigid3 T_world_camera_close = {};  // At its end.
 };
 
 // CV_8UC3, BGR. `rays`: the camera's. The same bytes on any number of threads.
