@@ -37,6 +37,7 @@ void RenderedClip::Options::Validate() const {
 RenderedClip::RenderedClip(const Options& options)
     : options_(Checked(options)),
       camera_(options_.camera),
+      rays_(camera_),
       staged_(std::make_unique<const StagedScene>(MakeScene(options_.scene, options_.seed))),
       renderer_(staged_->scene, {.num_threads = options_.num_threads}) {}
 
@@ -67,8 +68,9 @@ RenderedFrame RenderedClip::Frame(std::size_t index) const {
   RenderedFrame frame;
   frame.time = Time(index);
   frame.T_world_camera = motion.T_world_camera;
-  frame.ideal = renderer_.Render(camera_, motion.T_world_camera);
-  frame.color = SenseColor(frame.ideal, camera_, motion, options_.color, options_.num_threads);
+  frame.ideal = renderer_.Render(rays_, motion.T_world_camera);
+  frame.color =
+      SenseColor(frame.ideal, camera_, rays_, motion, options_.color, options_.num_threads);
   frame.depth_16u =
       SenseDepth(frame.ideal, motion, options_.depth, options_.depth_factor, options_.num_threads);
   return frame;

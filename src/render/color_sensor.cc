@@ -18,9 +18,9 @@ constexpr std::uint64_t kDriftStream = 0xd21f7;
 // Where a surface point moves in the picture during the exposure.
 class Smear {
  public:
-  Smear(const PinholeCamera& camera, const FrameMotion& motion)
+  Smear(const PinholeCamera& camera, const RayTable& rays, const FrameMotion& motion)
       : camera_(camera),
-        rays_(camera),
+        rays_(rays),
         T_open_camera_(motion.T_world_camera_open.Inverse() * motion.T_world_camera),
         T_close_camera_(motion.T_world_camera_close.Inverse() * motion.T_world_camera),
         R_open_(T_open_camera_.rotation.toRotationMatrix().cast<float>()),
@@ -40,7 +40,7 @@ class Smear {
 
  private:
   const PinholeCamera& camera_;
-  RayTable rays_;
+  const RayTable& rays_;
   Rigid3 T_open_camera_;
   Rigid3 T_close_camera_;
   Eigen::Matrix3f R_open_;
@@ -112,10 +112,11 @@ ColorSensorOptions ColorSensorOptions::Clean() {
 
 cv::Mat SenseColor(const IdealImage& ideal,
                    const PinholeCamera& camera,
+                   const RayTable& rays,
                    const FrameMotion& motion,
                    const ColorSensorOptions& options,
                    int num_threads) {
-  const Smear smear(camera, motion);
+  const Smear smear(camera, rays, motion);
   const auto gain = static_cast<float>(GainAt(motion, options));
   const auto vignetting = static_cast<float>(options.vignetting);
   const float center_x = 0.5F * static_cast<float>(camera.width());

@@ -32,6 +32,13 @@ Eigen::Vector3d WorldDirection(const View& view, const Eigen::Vector2f& ray) {
   return view.R_world_camera * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
 }
 
+// In the middle of the picture.
+float PixelAngle(const RayTable& rays) {
+  const int column = rays.width() / 2;
+  const int row = rays.height() / 2;
+  return (rays.At(column, row) - rays.At(column - 1, row)).norm();
+}
+
 // A ray whose lengths are depths.
 Ray CameraRay(const View& view, const Eigen::Vector2f& ray) {
   return {view.p_world_camera.cast<float>(), WorldDirection(view, ray).cast<float>(), kFar};
@@ -69,11 +76,10 @@ class Renderer::Impl {
   Impl(const Scene& scene, const Options& options)
       : scene_(scene), options_(options), ray_scene_(scene) {}
 
-  IdealImage Render(const PinholeCamera& camera, const Rigid3& T_world_camera) const {
-    const RayTable rays(camera);
+  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera) const {
     const View view = {rays, T_world_camera.translation, T_world_camera.rotation.toRotationMatrix(),
-                       static_cast<float>(1.0 / camera.fx())};
-    const cv::Size size(camera.width(), camera.height());
+                       PixelAngle(rays)};
+    const cv::Size size(rays.width(), rays.height());
     IdealImage image;
     image.radiance.create(size, CV_32FC3);
     image.depth.create(size, CV_64FC1);
@@ -194,8 +200,8 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-IdealImage Renderer::Render(const PinholeCamera& camera, const Rigid3& T_world_camera) const {
-  return impl_->Render(camera, T_world_camera);
+IdealImage Renderer::Render(const RayTable& rays, const Rigid3& T_world_camera) const {
+  return impl_->Render(rays, T_world_camera);
 }
 
 }  // namespace semslam

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
+#include <emmintrin.h>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/check.h"
@@ -12,31 +15,48 @@
 namespace semslam {
 namespace {
 
+// For an index at most one step outside.
 int Wrap(int index, int size) {
-  const int rest = index % size;
-  return rest < 0 ? rest + size : rest;
+  if (index < 0) return size - 1;
+  return index < size ? index : 0;
 }
 
-Eigen::Vector3f ToVector(const cv::Vec4b& texel) {
-  return {static_cast<float>(texel[0]), static_cast<float>(texel[1]), static_cast<float>(texel[2])};
+// The four bytes of a texel as floats.
+__m128 ToFloats(const cv::Vec4b& texel) {
+  std::int32_t packed = 0;
+  std::memcpy(&packed, texel.val, sizeof(packed));
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i words = _mm_unpacklo_epi8(_mm_cvtsi32_si128(packed), zero);
+  return _mm_cvtepi32_ps(_mm_unpacklo_epi16(words, zero));
 }
 
-Eigen::Vector3f Bilinear(const cv::Mat& level, const Eigen::Vector2f& uv) {
-  const float x = (uv.x() - std::floor(uv.x())) * static_cast<float>(level.cols) - 0.5F;
-  const float y = (std::ceil(uv.y()) - uv.y()) * static_cast<float>(level.rows) - 0.5F;
-  const float x_floor = std::floor(x);
-  const float y_floor = std::floor(y);
+// a + weight * (b - a).
+__m128 Mix(__m128 a, __m128 b, __m128 weight) {
+  return _mm_add_ps(a, _mm_mul_ps(weight, _mm_sub_ps(b, a)));
+}
+
+// Largest whole number below; SSE2 has no instruction for it.
+float FastFloor(float value) {
+  const auto whole = static_cast<float>(static_cast<int>(value));
+  return whole > value ? whole - 1.0F : whole;
+}
+
+// Values 0 to 255, in the first three places.
+__m128 Bilinear(const cv::Mat& level, const Eigen::Vector2f& unit) {
+  const float x = unit.x() * static_cast<float>(level.cols) - 0.5F;
+  const float y = unit.y() * static_cast<float>(level.rows) - 0.5F;
+  const float x_floor = FastFloor(x);
+  const float y_floor = FastFloor(y);
   const int x0 = Wrap(static_cast<int>(x_floor), level.cols);
   const int x1 = x0 + 1 == level.cols ? 0 : x0 + 1;
   const int y0 = Wrap(static_cast<int>(y_floor), level.rows);
   const int y1 = y0 + 1 == level.rows ? 0 : y0 + 1;
   const auto* row0 = level.ptr<cv::Vec4b>(y0);
   const auto* row1 = level.ptr<cv::Vec4b>(y1);
-  const float wx = x - x_floor;
-  const float wy = y - y_floor;
-  const Eigen::Vector3f top = ToVector(row0[x0]) * (1 - wx) + ToVector(row0[x1]) * wx;
-  const Eigen::Vector3f bottom = ToVector(row1[x0]) * (1 - wx) + ToVector(row1[x1]) * wx;
-  return top * (1 - wy) + bottom * wy;
+  const __m128 wx = _mm_set1_ps(x - x_floor);
+  const __m128 top = Mix(ToFloats(row0[x0]), ToFloats(row0[x1]), wx);
+  const __m128 bottom = Mix(ToFloats(row1[x0]), ToFloats(row1[x1]), wx);
+  return Mix(top, bottom, _mm_set1_ps(y - y_floor));
 }
 
 }  // namespace
@@ -60,11 +80,14 @@ Eigen::Vector3f Texture::Sample(const Eigen::Vector2f& uv, float footprint) cons
   const float level = std::min(std::log2(texels), static_cast<float>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(level);
   const float weight = level - static_cast<float>(fine);
-  Eigen::Vector3f color = Bilinear(levels_[fine], uv);
+  const Eigen::Vector2f unit(uv.x() - FastFloor(uv.x()), 1.0F - (uv.y() - FastFloor(uv.y())));
+  __m128 color = Bilinear(levels_[fine], unit);
   if (weight > 0.02F && fine + 1 < levels_.size()) {
-    color += weight * (Bilinear(levels_[fine + 1], uv) - color);
+    color = Mix(color, Bilinear(levels_[fine + 1], unit), _mm_set1_ps(weight));
   }
-  return color * (1.0F / 255.0F);
+  alignas(16) float channels[4];
+  _mm_store_ps(channels, _mm_mul_ps(color, _mm_set1_ps(1.0F / 255.0F)));
+  return {channels[0], channels[1], channels[2]};
 }
 
 }  // namespace semslam

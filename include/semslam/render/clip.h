@@ -71,6 +71,7 @@ class RenderedClip : public FrameSource {
  private:
   Options options_;
   PinholeCamera camera_;
+  RayTable rays_;
   std::unique_ptr<const StagedScene> staged_;  // At a fixed place: the renderer refers to it.
   Renderer renderer_;
   std::size_t next_ = 0;

@@ -38,7 +38,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  IdealImage Render(const PinholeCamera& camera, const Rigid3& T_world_camera) const;
+  // `rays`: of the camera; making them takes longer than using them, so they are made once.
+  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera) const;
 
  private:
   class Impl;

@@ -51,9 +51,10 @@ struct FrameMotion {
   Rigid3 T_world_camera_close;  // At its end.
 };
 
-// CV_8UC3, BGR. The same bytes on any number of threads.
+// CV_8UC3, BGR. `rays`: the camera's. The same bytes on any number of threads.
 cv::Mat SenseColor(const IdealImage& ideal,
                    const PinholeCamera& camera,
+                   const RayTable& rays,
                    const FrameMotion& motion,
                    const ColorSensorOptions& options,
                    int num_threads);
