@@ -3,13 +3,14 @@
 #include "features/test_images.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/random.h"
+
+#include "support/clips.h"
 
 namespace semslam {
 
@@ -30,15 +31,11 @@ cv::Mat MakeTexture(int width, int height, std::uint64_t seed) {
 
 std::vector<cv::Mat> LoadClipImages(const std::string& clip, int stride) {
   namespace fs = std::filesystem;
-  // Tests are single-threaded here.
-  const char* const clips = std::getenv("SEMSLAM_CLIPS");  // NOLINT(concurrency-mt-unsafe)
-  const fs::path root = clips != nullptr
-                            ? fs::path(clips)
-                            : fs::path(SEMSLAM_SOURCE_DIR) / ".." / "shared" / "data" / "clips";
+  const fs::path folder = testing::FindClip(clip);
   std::vector<cv::Mat> images;
-  if (!fs::is_directory(root / clip / "rgb")) return images;
+  if (folder.empty()) return images;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(root / clip / "rgb")) {
+  for (const auto& entry : fs::directory_iterator(folder / "rgb")) {
     files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
