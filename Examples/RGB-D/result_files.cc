@@ -98,12 +98,17 @@ std::vector<std::string> WriteResults(const std::filesystem::path& folder,
                         ToTrajectory(system.KeyframeTrajectory()));
       },
       [&] {
-        WritePcd(folder / "global_color.pcd", {.positions = positions, .colors = map.cloud.colors});
+        semslam::WritePcd(folder / "global_color.pcd",
+                          {.positions = positions, .colors = map.cloud.colors});
       },
-      [&] { WritePcd(folder / "segmentation.pcd", {.positions = positions, .labels = segments}); },
       [&] {
-        WritePcd(folder / "semantic_map.pcd",
-                 {.positions = positions, .colors = columns.colors, .labels = columns.labels});
+        semslam::WritePcd(folder / "segmentation.pcd",
+                          {.positions = positions, .labels = segments});
+      },
+      [&] {
+        semslam::WritePcd(
+            folder / "semantic_map.pcd",
+            {.positions = positions, .colors = columns.colors, .labels = columns.labels});
       },
       [&] { WritePly(folder / "semantic_map.ply", semantic_cloud); },
       [&] { WriteObjects(folder / "objects.json", classes, objects); },

@@ -99,7 +99,8 @@ PointCloudMapping::Result PointCloudMapping::Finish() {
           .Segment({.points = result.cloud.positions, .normals = result.cloud.normals});
   result.segmentation_milliseconds = stopwatch.Milliseconds();
   stopwatch.Restart();
-  result.semantics = BuildSemanticMap(result.cloud, result.segmentation, LabelledKeyframes(),
+  const VoxelIndex index(result.cloud.positions, result.cloud.voxel_size);
+  result.semantics = BuildSemanticMap(result.cloud, index, result.segmentation, LabelledKeyframes(),
                                       classes_, options_.fusion);
   result.fusion_milliseconds = stopwatch.Milliseconds();
   if (num_integrated_ > 0) {
