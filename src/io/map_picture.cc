@@ -59,15 +59,15 @@ Rgb SegmentColor(std::uint32_t id) {
 // What the three panels share: the view of the cloud and how light falls on its points.
 class Scene {
  public:
-  Scene(const MapPictureInput& input, MapPictureView view, const MapPictureOptions& options)
-      : input_(input), supersampling_(options.supersampling) {
-    for (const ClassRecord& entry : input.classes) classes_[entry.label] = &entry;
-    const std::span<const Eigen::Vector3f> positions = input.cloud.positions;
+  Scene(const LabelledMapView& map, MapPictureView view, const MapPictureOptions& options)
+      : map_(map), supersampling_(options.supersampling), semantic_colors_(SemanticColors(map)) {
+    for (const ClassRecord& entry : map.classes) classes_[entry.label] = &entry;
+    const std::span<const Eigen::Vector3f> positions = map.cloud.positions;
     const bool has_points = std::any_of(positions.begin(), positions.end(),
                                         [](const auto& p) { return p.allFinite(); });
     if (!has_points) return;
     camera_ = MakeCamera(view, options);
-    image_ = RenderPoints(positions, *camera_, input.point_size);
+    image_ = RenderPoints(positions, *camera_, map.point_size);
   }
 
   bool is_empty() const { return !camera_; }
@@ -91,24 +91,21 @@ class Scene {
   }
 
   std::pair<Rgb, float> PhotoColor(std::size_t point) const {
-    return {input_.cloud.colors.empty() ? Rgb{200, 200, 200} : input_.cloud.colors[point], 1.0F};
+    return {map_.cloud.colors.empty() ? Rgb{200, 200, 200} : map_.cloud.colors[point], 1.0F};
   }
 
   std::pair<Rgb, float> SegmentColorOf(std::size_t point) const {
-    const std::uint32_t id = input_.cloud.segments.empty() ? 0 : input_.cloud.segments[point];
+    const std::uint32_t id = map_.cloud.segments.empty() ? 0 : map_.cloud.segments[point];
     return {SegmentColor(id), Shading(point)};
   }
 
   // Class colours over the brightness of the photo; grey where there is no class.
   std::pair<Rgb, float> ClassColorOf(std::size_t point) const {
+    const std::uint32_t label = map_.cloud.labels.empty() ? 0 : map_.cloud.labels[point];
+    const bool has_class = label != 0 && classes_.contains(label);
     const float luminance = Luminance(PhotoColor(point).first);
-    const std::uint32_t label = input_.cloud.labels.empty() ? 0 : input_.cloud.labels[point];
-    const auto entry = classes_.find(label);
-    if (label == 0 || entry == classes_.end()) {
-      const auto grey = static_cast<std::uint8_t>(50.0F + 0.45F * luminance);
-      return {{grey, grey, grey}, 1.0F};
-    }
-    return {entry->second->color, Shading(point) * (0.8F + 0.25F * luminance / 255.0F)};
+    return {semantic_colors_[point],
+            has_class ? Shading(point) * (0.8F + 0.25F * luminance / 255.0F) : 1.0F};
   }
 
   // In pixels of a panel; nothing behind the camera.
@@ -129,8 +126,8 @@ class Scene {
  private:
   Eigen::Vector3f Up() const {
     const Eigen::Vector3f camera_up(0, -1, 0);
-    if (input_.up) return input_.up->cast<float>().normalized();
-    return CommonUpNormal(input_.cloud.normals, camera_up).value_or(camera_up);
+    if (map_.up) return map_.up->cast<float>().normalized();
+    return CommonUpNormal(map_.cloud.normals, camera_up).value_or(camera_up);
   }
 
   ViewCamera MakeCamera(MapPictureView view, const MapPictureOptions& options) const {
@@ -143,25 +140,25 @@ class Scene {
     const int height = options.panel_height * options.supersampling;
     if (view == MapPictureView::kTop) {
       constexpr float kNarrow = 0.2F;  // Almost parallel rays.
-      return FitCamera(input_.cloud.positions, -up, level, kNarrow, width, height);
+      return FitCamera(map_.cloud.positions, -up, level, kNarrow, width, height);
     }
     constexpr float kTilt = 0.6F;  // Downwards, rad.
     constexpr float kFieldOfView = 0.75F;
     const Eigen::Vector3f forward = std::cos(kTilt) * level - std::sin(kTilt) * up;
-    return FitCamera(input_.cloud.positions, forward, up, kFieldOfView, width, height);
+    return FitCamera(map_.cloud.positions, forward, up, kFieldOfView, width, height);
   }
 
   // A lamp at the camera: faces seen from the side are darker.
   float Shading(std::size_t point) const {
-    if (input_.cloud.normals.empty()) return 1.0F;
-    const Eigen::Vector3f to_point =
-        (input_.cloud.positions[point] - camera_->p_world).normalized();
-    const float cosine = std::abs(input_.cloud.normals[point].dot(to_point));
+    if (map_.cloud.normals.empty()) return 1.0F;
+    const Eigen::Vector3f to_point = (map_.cloud.positions[point] - camera_->p_world).normalized();
+    const float cosine = std::abs(map_.cloud.normals[point].dot(to_point));
     return std::isfinite(cosine) ? 0.6F + 0.4F * std::min(cosine, 1.0F) : 1.0F;
   }
 
-  const MapPictureInput& input_;
+  const LabelledMapView& map_;
   int supersampling_;
+  std::vector<Rgb> semantic_colors_;
   std::map<std::uint32_t, const ClassRecord*> classes_;
   std::optional<ViewCamera> camera_;
   PointImage image_;
@@ -226,13 +223,13 @@ class NamePlates {
   std::vector<cv::Rect> taken_;
 };
 
-void DrawObjects(const MapPictureInput& input, const Scene& scene, cv::Mat& panel) {
+void DrawObjects(const LabelledMapView& map, const Scene& scene, cv::Mat& panel) {
   NamePlates plates(panel);
-  for (const ObjectRecord& object : input.objects) {
+  for (const ObjectRecord& object : map.objects) {
     const ClassRecord* entry = scene.FindClass(object.label);
     if (entry != nullptr) DrawBox(scene, object.box, ToScalar(entry->color), panel);
   }
-  for (const ObjectRecord& object : input.objects) {
+  for (const ObjectRecord& object : map.objects) {
     const ClassRecord* entry = scene.FindClass(object.label);
     const std::optional<cv::Point2f> place = scene.ProjectToPanel(object.centroid);
     const bool is_inside = place && cv::Rect(0, 0, panel.cols, panel.rows).contains(*place);
@@ -258,10 +255,10 @@ std::size_t NumDistinct(std::span<const std::uint32_t> ids) {
 }
 
 // Colour and name of each class that the map holds, in as many rows as it takes.
-cv::Mat DrawLegend(const MapPictureInput& input, int width) {
-  const std::set<std::uint32_t> present(input.cloud.labels.begin(), input.cloud.labels.end());
+cv::Mat DrawLegend(const LabelledMapView& map, int width) {
+  const std::set<std::uint32_t> present(map.cloud.labels.begin(), map.cloud.labels.end());
   std::vector<std::pair<std::string, cv::Scalar>> entries;
-  for (const ClassRecord& entry : input.classes) {
+  for (const ClassRecord& entry : map.classes) {
     if (entry.label == 0 || !present.contains(entry.label)) continue;
     entries.emplace_back(entry.name, ToScalar(entry.color));
   }
@@ -301,42 +298,42 @@ void MapPictureOptions::Validate() const {
   }
 }
 
-cv::Mat DrawMapPicture(const MapPictureInput& input,
+cv::Mat DrawMapPicture(const LabelledMapView& map,
                        MapPictureView view,
                        const MapPictureOptions& options) {
   options.Validate();
-  CheckLengths(input.cloud);
-  SEMSLAM_CHECK(input.point_size > 0) << "point_size = " << input.point_size;
-  const Scene scene(input, view, options);
+  CheckLengths(map.cloud);
+  SEMSLAM_CHECK(map.point_size > 0) << "point_size = " << map.point_size;
+  const Scene scene(map, view, options);
   const cv::Mat photo =
       scene.Paint(options, [&](std::size_t point) { return scene.PhotoColor(point); });
   const cv::Mat segments =
       scene.Paint(options, [&](std::size_t point) { return scene.SegmentColorOf(point); });
   cv::Mat classes =
       scene.Paint(options, [&](std::size_t point) { return scene.ClassColorOf(point); });
-  DrawObjects(input, scene, classes);
+  DrawObjects(map, scene, classes);
 
   const cv::Mat gap(options.panel_height + kTitleHeight, kGap, CV_8UC3, kBackground);
   cv::Mat panels;
   cv::hconcat(
       std::vector<cv::Mat>{
-          WithTitle(photo, "colour: " + Count(input.cloud.positions.size(), "point")), gap,
-          WithTitle(segments, "geometry: " + Count(NumDistinct(input.cloud.segments), "segment")),
-          gap, WithTitle(classes, "semantics: " + Count(input.objects.size(), "object"))},
+          WithTitle(photo, "colour: " + Count(map.cloud.positions.size(), "point")), gap,
+          WithTitle(segments, "geometry: " + Count(NumDistinct(map.cloud.segments), "segment")),
+          gap, WithTitle(classes, "semantics: " + Count(map.objects.size(), "object"))},
       panels);
   cv::Mat picture;
-  cv::vconcat(panels, DrawLegend(input, panels.cols), picture);
+  cv::vconcat(panels, DrawLegend(map, panels.cols), picture);
   return picture;
 }
 
 void WriteMapPictures(const std::filesystem::path& folder,
-                      const MapPictureInput& input,
+                      const LabelledMapView& map,
                       const MapPictureOptions& options) {
   for (const auto& [name, view] :
        {std::pair("semantic_map_top.png", MapPictureView::kTop),
         std::pair("semantic_map_view.png", MapPictureView::kPerspective)}) {
     std::vector<unsigned char> png;
-    cv::imencode(".png", DrawMapPicture(input, view, options), png);
+    cv::imencode(".png", DrawMapPicture(map, view, options), png);
     WriteFileAtomically(folder / name, {reinterpret_cast<const char*>(png.data()), png.size()});
   }
 }

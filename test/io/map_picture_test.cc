@@ -53,8 +53,8 @@ struct TableScene {
     segments.push_back(segment);
     labels.push_back(label);
   }
-  MapPictureInput Input() const {
-    MapPictureInput input;
+  LabelledMapView Input() const {
+    LabelledMapView input;
     input.cloud = {.positions = positions,
                    .colors = colors,
                    .normals = normals,
@@ -121,7 +121,7 @@ TEST(MapPicture, TurnsTheWorldUpright) {
 
 TEST(MapPicture, DrawsTheBoxesOfObjectsOnlyInTheSemanticPanel) {
   const TableScene scene;
-  MapPictureInput input = scene.Input();
+  LabelledMapView input = scene.Input();
   const cv::Mat without = DrawMapPicture(input, MapPictureView::kTop, kSmall);
   ObjectRecord object;
   object.label = 5;
@@ -145,7 +145,7 @@ TEST(MapPicture, TakesAnyCloud) {
       {{0, 0, 0}, {1e6F, 0, 0}, {nan, nan, nan}},
       {{-1e-6F, 0, 0}, {0, 1e-6F, 0}}};
   for (const auto& positions : clouds) {
-    MapPictureInput input;
+    LabelledMapView input;
     input.cloud.positions = positions;
     for (const MapPictureView view : {MapPictureView::kTop, MapPictureView::kPerspective}) {
       const cv::Mat picture = DrawMapPicture(input, view, kSmall);
