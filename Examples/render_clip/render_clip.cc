@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "semslam/base/stopwatch.h"
 #include "semslam/render/clip.h"
@@ -22,13 +24,21 @@ struct Arguments {
   semslam::RenderedClip::Options clip;
 };
 
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 void AddArguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("SCENE", arguments.clip.scene, "What to render: desk, wall")->required();
+  app.add_option("SCENE", arguments.clip.scene, "What to render: " + Listed(semslam::SceneNames()))
+      ->required();
   app.add_option("OUT", arguments.folder, "Folder to write")->required();
   app.add_option("--frames", arguments.clip.num_frames, "Number of frames")->capture_default_str();
   app.add_option("--seed", arguments.clip.seed, "Of objects, camera path and noise")
       ->capture_default_str();
-  app.add_option("--camera", arguments.camera, "TUM1 (with lens distortion), TUM3, Xtion")
+  app.add_option("--camera", arguments.camera,
+                 Listed(semslam::CameraNames()) + "; TUM1 has lens distortion")
       ->capture_default_str();
   app.add_option("--fps", arguments.clip.fps, "Frames a second")->capture_default_str();
   app.add_option("--threads", arguments.clip.num_threads, "0: one per core")->capture_default_str();
@@ -46,13 +56,19 @@ void Run(Arguments arguments) {
   }
   const semslam::RenderedClip clip(arguments.clip);
   const semslam::Stopwatch watch;
+  const bool has_terminal = ::isatty(STDERR_FILENO) != 0;
+  const auto rate = [&](std::size_t num_frames) {
+    return static_cast<double>(num_frames) / watch.Seconds();
+  };
   semslam::WriteClip(clip, arguments.folder, detections, [&](std::size_t num_written) {
+    if (!has_terminal) return;
     std::fprintf(stderr, "\r%zu of %zu frames, %.1f a second ", num_written, clip.num_frames(),
-                 static_cast<double>(num_written) / watch.Seconds());
+                 rate(num_written));
+    if (num_written == clip.num_frames()) std::fprintf(stderr, "\n");
   });
-  std::fprintf(stderr, "\n");
-  std::cout << arguments.folder.string() << ": " << clip.num_frames() << " frames of "
-            << arguments.clip.scene << ", " << clip.instances().size() << " objects\n";
+  std::printf("%s: %zu frames of %s, %zu objects, %.1f frames a second\n", arguments.folder.c_str(),
+              clip.num_frames(), arguments.clip.scene.c_str(), clip.instances().size(),
+              rate(clip.num_frames()));
 }
 
 }  // namespace
@@ -62,7 +78,11 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Renders an RGB-D clip with exact truth, as a folder in the TUM RGB-D format.");
     AddArguments(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+      return app.exit(help);
+    }
     Run(arguments);
     return 0;
   } catch (const std::exception& error) {

@@ -71,7 +71,7 @@ Eigen::Vector3f SmearedRadiance(const cv::Mat& radiance,
                                 const Eigen::Vector2f& smear) {
   const float length = smear.norm();
   if (length < 0.4F) return PixelAt(radiance, column, row);
-  const int num_taps = std::min(16, 2 + static_cast<int>(length));
+  const int num_taps = std::clamp(static_cast<int>(length + 0.9F), 2, 16);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (int i = 0; i < num_taps; ++i) {
     const float part = (static_cast<float>(i) + 0.5F) / static_cast<float>(num_taps) - 0.5F;
