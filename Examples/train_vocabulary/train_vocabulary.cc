@@ -148,7 +148,11 @@ int main(int argc, char** argv) {
   app.add_option("--threads", arguments.num_threads, "0: all cores")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
+  }
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
     semslam::Run(arguments);
