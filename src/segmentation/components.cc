@@ -6,39 +6,15 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "segmentation/disjoint_sets.h"
+#include "segmentation/surface_growth.h"
+
 namespace semslam {
 namespace {
-
-// Union-find whose representative is the least member, so that the order of the joins has no
-// effect.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  std::uint32_t Find(std::uint32_t member) {
-    while (parent_[member] != member) {
-      parent_[member] = parent_[parent_[member]];
-      member = parent_[member];
-    }
-    return member;
-  }
-
-  void Join(std::uint32_t a, std::uint32_t b) {
-    a = Find(a);
-    b = Find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 double ToDegrees(double radians) { return radians * (180.0 / std::numbers::pi); }
 
@@ -70,26 +46,29 @@ bool IsOn(const PatchGraph& graph,
 
 struct Border {
   double num_contacts = 0;
-  double num_convex = 0;
+  double num_joining = 0;
 };
 
-void JoinAcrossConvexBorders(const PatchGraph& graph,
-                             const std::vector<bool>& is_structural,
-                             const ComponentOptions& options,
-                             DisjointSets& sets) {
+// Joins components over borders of whose contacts most are between patches that `joins`, among the
+// pairs of components (given by their representatives) that `may_join`.
+template <typename MayJoin, typename Joins>
+void JoinAcrossBorders(const PatchGraph& graph,
+                       const MayJoin& may_join,
+                       const Joins& joins,
+                       DisjointSets& sets) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;
   for (const PatchEdge& edge : graph.edges) {
     const std::uint32_t a = sets.Find(edge.a);
     const std::uint32_t b = sets.Find(edge.b);
-    if (a == b || is_structural[a] || is_structural[b]) continue;
+    if (a == b || !may_join(a, b)) continue;
     Border& border = borders[std::minmax(a, b)];
     border.num_contacts += edge.num_contacts;
-    if (IsConvex(graph.patches[edge.a], graph.patches[edge.b], options)) {
-      border.num_convex += edge.num_contacts;
+    if (joins(graph.patches[edge.a], graph.patches[edge.b])) {
+      border.num_joining += edge.num_contacts;
     }
   }
   for (const auto& [pair, border] : borders) {
-    if (border.num_convex > 0.5 * border.num_contacts) sets.Join(pair.first, pair.second);
+    if (border.num_joining > 0.5 * border.num_contacts) sets.Join(pair.first, pair.second);
   }
 }
 
@@ -107,6 +86,21 @@ std::vector<bool> FindStructural(const PatchGraph& graph,
   return is_structural;
 }
 
+// The one plane of all patches; of a structural component, which may be warped, the plane of most
+// of its area.
+std::uint32_t PlaneOf(const Component& component,
+                      const PatchGraph& graph,
+                      const std::vector<std::uint32_t>& plane_labels) {
+  std::map<std::uint32_t, double> areas;
+  for (const std::uint32_t patch : component.patches) {
+    areas[plane_labels[patch]] += graph.patches[patch].area;
+  }
+  if (areas.size() > 1 && !component.is_structural) return 0;
+  const auto largest = std::max_element(
+      areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return largest->first;
+}
+
 Components Collect(const PatchGraph& graph,
                    const std::vector<std::uint32_t>& plane_labels,
                    const std::vector<bool>& is_structural,
@@ -115,17 +109,16 @@ Components Collect(const PatchGraph& graph,
   std::vector<Component> by_representative(graph.patches.size());
   for (std::uint32_t i = 0; i < graph.patches.size(); ++i) {
     Component& component = by_representative[sets.Find(i)];
-    if (component.patches.empty()) component.plane_label = plane_labels[i];
-    if (component.plane_label != plane_labels[i]) component.plane_label = 0;
     component.patches.push_back(i);
     component.area += graph.patches[i].area;
+    component.is_structural = component.is_structural || is_structural[i];
   }
   Components result;
   result.component_of_patch.assign(graph.patches.size(), kNoComponent);
   for (std::uint32_t i = 0; i < by_representative.size(); ++i) {
     Component& component = by_representative[i];
     if (component.patches.size() < std::max<std::size_t>(min_patches, 1)) continue;
-    component.is_structural = is_structural[i];
+    component.plane_label = PlaneOf(component, graph, plane_labels);
     for (const std::uint32_t patch : component.patches) {
       result.component_of_patch[patch] = static_cast<std::uint32_t>(result.components.size());
     }
@@ -153,7 +146,13 @@ Components FindComponents(const PatchGraph& graph,
   }
   const std::vector<bool> is_structural =
       FindStructural(graph, plane_labels, options.min_structural_area, sets);
-  JoinAcrossConvexBorders(graph, is_structural, options, sets);
+  JoinAcrossBorders(
+      graph,
+      [&](std::uint32_t a, std::uint32_t b) { return !is_structural[a] && !is_structural[b]; },
+      [&](const Patch& a, const Patch& b) { return IsConvex(a, b, options); }, sets);
+  JoinAcrossBorders(
+      graph, [&](std::uint32_t a, std::uint32_t b) { return is_structural[a] && is_structural[b]; },
+      [&](const Patch& a, const Patch& b) { return IsFlush(a, b, options); }, sets);
   return Collect(graph, plane_labels, is_structural, options.min_patches, sets);
 }
 

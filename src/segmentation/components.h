@@ -16,7 +16,7 @@ constexpr std::uint32_t kNoComponent = std::numeric_limits<std::uint32_t>::max()
 
 struct Component {
   std::vector<std::uint32_t> patches;  // Ascending.
-  std::uint32_t plane_label = 0;       // 0: not (all of) one plane.
+  std::uint32_t plane_label = 0;       // 0: not one plane.
   double area = 0;                     // Square metres.
   bool is_structural = false;
 };
@@ -33,8 +33,8 @@ bool IsConvex(const Patch& a, const Patch& b, const ComponentOptions& options);
 
 // Connected components of the graph, over edges between patches of one plane and convex edges
 // between patches of none. Then components that are no structural planes are joined where most of
-// their common border is convex, so that the faces of a box come together. `plane_labels`: 0 for
-// none.
+// their common border is convex, so that the faces of a box come together, and structural planes
+// where most of it is flush, so that a warped floor stays one. `plane_labels`: 0 for none.
 Components FindComponents(const PatchGraph& graph,
                           const std::vector<std::uint32_t>& plane_labels,
                           const ComponentOptions& options);

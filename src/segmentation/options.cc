@@ -71,6 +71,9 @@ void Check(const ComponentOptions& options) {
   RequireNotNegative("components.concavity_tolerance", options.concavity_tolerance);
   RequireNotNegative("components.step_tolerance", options.step_tolerance);
   RequireNotNegative("components.min_structural_area", options.min_structural_area);
+  RequireNotNegative("components.flush_tolerance", options.flush_tolerance);
+  RequireNotNegative("components.min_core_area", options.min_core_area);
+  RequireNotNegative("components.warp_tolerance", options.warp_tolerance);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "segmentation/radix_sort.h"
@@ -29,9 +31,40 @@ std::vector<Patch> MakePatches(const VoxelGrid& grid,
     if (const std::optional<PlaneFit> fit = FitPlane(patch.moments)) {
       patch.variation = fit->variation;
     }
-    patch.area = AreaOfVoxels(patch.num_voxels, grid.voxel_size, patch.normal);
   }
   return patches;
+}
+
+// The area of a patch is that of its shadow along the axis its normal is nearest to, over the
+// cosine between them. The shadow counts columns of voxels, so that a surface that noise has made
+// several voxels thick is counted once.
+void MeasureAreas(const VoxelGrid& grid,
+                  const Supervoxels& supervoxels,
+                  std::vector<Patch>& patches) {
+  std::vector<std::size_t> place(patches.size() + 1, 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) place[i + 1] = place[i] + patches[i].num_voxels;
+  std::vector<std::uint64_t> columns(place.back());
+  std::vector<int> axes(patches.size(), 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    patches[i].normal.cwiseAbs().maxCoeff(&axes[i]);
+  }
+  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
+    const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
+    if (index == kNoPatch) continue;
+    const Eigen::Vector3i& cell = grid.cells[voxel];
+    const int axis = axes[index];
+    columns[place[index]++] = static_cast<std::uint64_t>(cell[(axis + 1) % 3]) << 32 |
+                              static_cast<std::uint64_t>(cell[(axis + 2) % 3]);
+  }
+  const double face = grid.voxel_size * grid.voxel_size;
+  for (std::size_t i = 0; i < patches.size(); ++i) {  // place[i] is now the end of patch i.
+    const auto end = columns.begin() + static_cast<std::ptrdiff_t>(place[i]);
+    const auto begin = end - static_cast<std::ptrdiff_t>(patches[i].num_voxels);
+    std::sort(begin, end);
+    const auto num_columns = static_cast<double>(std::unique(begin, end) - begin);
+    const double cosine = std::abs(patches[i].normal[axes[i]]);
+    patches[i].area = num_columns * face / (cosine > 0 ? cosine : 1.0);
+  }
 }
 
 std::vector<PatchEdge> FindEdges(const VoxelGrid& grid, const Supervoxels& supervoxels) {
@@ -64,12 +97,9 @@ std::vector<PatchEdge> FindEdges(const VoxelGrid& grid, const Supervoxels& super
 PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
                            const Supervoxels& supervoxels) {
-  return {MakePatches(grid, normals, supervoxels), FindEdges(grid, supervoxels)};
-}
-
-double AreaOfVoxels(std::size_t num_voxels, double voxel_size, const Eigen::Vector3d& normal) {
-  const double crossings = std::max(normal.lpNorm<1>(), 1.0);
-  return static_cast<double>(num_voxels) * voxel_size * voxel_size / crossings;
+  PatchGraph graph{MakePatches(grid, normals, supervoxels), FindEdges(grid, supervoxels)};
+  MeasureAreas(grid, supervoxels, graph.patches);
+  return graph;
 }
 
 }  // namespace semslam

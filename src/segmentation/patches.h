@@ -40,8 +40,4 @@ PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
                            const Supervoxels& supervoxels);
 
-// Area of a plane piece that occupies `num_voxels` voxels: a plane of normal n crosses
-// |n_x| + |n_y| + |n_z| voxels per voxel face of its area, in the mean over its positions.
-double AreaOfVoxels(std::size_t num_voxels, double voxel_size, const Eigen::Vector3d& normal);
-
 }  // namespace semslam

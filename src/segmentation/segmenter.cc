@@ -14,6 +14,7 @@
 #include "segmentation/plane_selection.h"
 #include "segmentation/summary.h"
 #include "segmentation/supervoxels.h"
+#include "segmentation/surface_growth.h"
 #include "segmentation/voxel_grid.h"
 #include "segmentation/voxel_normals.h"
 
@@ -70,8 +71,9 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   const SelectionEnergy energy = MakeSelectionEnergy(graph.patches, planes, options_.planes);
   planes = KeepSelected(planes, SelectPlanes(energy, options_.selection));
   result.times.selection = Lap(watch);
-  const std::vector<std::uint32_t> plane_labels =
+  std::vector<std::uint32_t> plane_labels =
       AssignPlanes(graph, planes, options_.planes, options_.assignment);
+  plane_labels = GrowSurfaces(graph, planes, std::move(plane_labels), options_.components);
   result.times.assignment = Lap(watch);
 
   const Components components = FindComponents(graph, plane_labels, options_.components);

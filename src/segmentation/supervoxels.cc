@@ -3,6 +3,8 @@
 #include "segmentation/supervoxels.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -11,8 +13,9 @@
 namespace semslam {
 namespace {
 
-// First come, first served among equal distances; the distances are rounded to buckets, so that
-// both ends of the queue are reached in constant time.
+// First come, first served among equal distances; the distances are rounded to buckets. Two levels
+// of bits tell which buckets hold something, so that both ends of the queue are reached in constant
+// time.
 class BucketQueue {
  public:
   struct Entry {
@@ -25,22 +28,25 @@ class BucketQueue {
   void Push(float distance, Entry entry) {
     const auto bucket = static_cast<std::size_t>(
         std::min(distance * kBucketsPerUnit, static_cast<float>(kNumBuckets - 1)));
-    Bucket& target = buckets_[bucket];
-    target.entries.push_back(entry);
-    lowest_ = std::min(lowest_, bucket);
-    ++size_;
+    buckets_[bucket].entries.push_back(entry);
+    words_[bucket / kWordBits] |= std::uint64_t{1} << (bucket % kWordBits);
+    summary_ |= std::uint64_t{1} << (bucket / kWordBits);
   }
 
-  bool empty() const { return size_ == 0; }
+  bool empty() const { return summary_ == 0; }
 
   Entry Pop() {
-    while (buckets_[lowest_].next == buckets_[lowest_].entries.size()) {
-      buckets_[lowest_] = {};
-      ++lowest_;
+    const auto word = static_cast<std::size_t>(std::countr_zero(summary_));
+    const auto bit = static_cast<std::size_t>(std::countr_zero(words_[word]));
+    Bucket& bucket = buckets_[word * kWordBits + bit];
+    const Entry entry = bucket.entries[bucket.next++];
+    if (bucket.next == bucket.entries.size()) {
+      bucket.entries.clear();
+      bucket.next = 0;
+      words_[word] &= ~(std::uint64_t{1} << bit);
+      if (words_[word] == 0) summary_ &= ~(std::uint64_t{1} << word);
     }
-    --size_;
-    Bucket& bucket = buckets_[lowest_];
-    return bucket.entries[bucket.next++];
+    return entry;
   }
 
  private:
@@ -48,38 +54,37 @@ class BucketQueue {
     std::vector<Entry> entries;
     std::size_t next = 0;
   };
-  static constexpr std::size_t kNumBuckets = 4096;
+  static constexpr std::size_t kWordBits = 64;
+  static constexpr std::size_t kNumBuckets = kWordBits * kWordBits;
   static constexpr float kBucketsPerUnit = 1024;
 
   std::vector<Bucket> buckets_;
-  std::size_t lowest_ = 0;
-  std::size_t size_ = 0;
+  std::array<std::uint64_t, kWordBits> words_{};
+  std::uint64_t summary_ = 0;
 };
 
-// What a patch has gathered so far, and where it begins.
+// Where a patch begins.
 struct Centre {
   std::uint32_t start = 0;  // A voxel.
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
 // Per occupied cell of the seed grid the voxel nearest to the mean of the cell's voxels.
-std::vector<Centre> PlaceSeeds(const VoxelGrid& grid,
-                               const std::vector<Eigen::Vector3f>& normals,
-                               double seed_spacing) {
-  constexpr int kAxisBits = 21;
+std::vector<Centre> PlaceSeeds(const VoxelGrid& grid, double seed_spacing) {
   const float scale = static_cast<float>(1.0 / seed_spacing);
+  Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& centroid : grid.centroids) high = high.cwiseMax(centroid);
+  const auto num_bits = static_cast<int>(
+      std::bit_width(static_cast<std::uint64_t>(high.maxCoeff() * scale)));  // Of each axis.
   std::vector<KeyedIndex> items(grid.size());
-  int num_bits = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Eigen::Vector3f position = grid.centroids[i].cwiseMax(0.0F) * scale;
     const auto x = static_cast<std::uint64_t>(position.x());
     const auto y = static_cast<std::uint64_t>(position.y());
     const auto z = static_cast<std::uint64_t>(position.z());
-    items[i] = {z << (2 * kAxisBits) | y << kAxisBits | x, static_cast<std::uint32_t>(i)};
-    num_bits = std::max(num_bits, z > 0 ? 3 * kAxisBits : 2 * kAxisBits);
+    items[i] = {z << (2 * num_bits) | y << num_bits | x, static_cast<std::uint32_t>(i)};
   }
-  RadixSort(items, num_bits);
+  RadixSort(items, 3 * num_bits);
 
   std::vector<Centre> seeds;
   for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
@@ -94,7 +99,7 @@ std::vector<Centre> PlaceSeeds(const VoxelGrid& grid,
                                             return (grid.centroids[a.index] - mean).squaredNorm() <
                                                    (grid.centroids[b.index] - mean).squaredNorm();
                                           });
-    seeds.push_back({nearest->index, grid.centroids[nearest->index], normals[nearest->index]});
+    seeds.push_back({nearest->index, grid.centroids[nearest->index]});
   }
   return seeds;
 }
@@ -105,84 +110,99 @@ class Growth {
          const std::vector<Eigen::Vector3f>& normals,
          const SupervoxelOptions& options)
       : grid_(grid),
-        normals_(normals),
         spatial_factor_(static_cast<float>(options.spatial_weight / options.seed_spacing)),
-        normal_factor_(static_cast<float>(options.normal_weight)) {}
+        normal_factor_(static_cast<float>(options.normal_weight)),
+        voxels_(grid.size()) {
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      voxels_[i].position = grid.centroids[i];
+      voxels_[i].normal = normals[i];
+    }
+  }
 
   std::vector<std::uint32_t> Run(const std::vector<Centre>& centres) {
-    std::vector<std::uint32_t> patch_of_voxel(grid_.size(), kNoPatch);
-    // The least distance a voxel was offered yet: worse offers need no place in the queue.
-    std::vector<float> best_offer(grid_.size(), std::numeric_limits<float>::max());
+    for (Voxel& voxel : voxels_) {
+      voxel.best_offer = std::numeric_limits<float>::max();
+      voxel.patch = kNoPatch;
+    }
     BucketQueue queue;
-    sums_.assign(centres.size(), {});
+    std::vector<GrowingPatch> patches(centres.size());
     for (std::uint32_t i = 0; i < centres.size(); ++i) {
-      sums_[i].mean = centres[i].position;
-      sums_[i].direction = centres[i].normal;
-      best_offer[centres[i].start] = 0;
+      patches[i].base = centres[i].position;
+      voxels_[centres[i].start].best_offer = 0;
       queue.Push(0, {centres[i].start, i});
     }
     while (!queue.empty()) {
       const BucketQueue::Entry entry = queue.Pop();
-      if (patch_of_voxel[entry.voxel] != kNoPatch) continue;
-      patch_of_voxel[entry.voxel] = entry.patch;
-      Sum& sum = sums_[entry.patch];
-      sum.Add(grid_.centroids[entry.voxel], normals_[entry.voxel]);
-      for (const std::uint32_t other : grid_.NeighboursOf(entry.voxel)) {
-        if (patch_of_voxel[other] != kNoPatch) continue;
-        const float distance = Distance(sum, other);
-        if (distance >= best_offer[other]) continue;
-        best_offer[other] = distance;
-        queue.Push(distance, {other, entry.patch});
-      }
+      Voxel& voxel = voxels_[entry.voxel];
+      if (voxel.patch != kNoPatch) continue;
+      voxel.patch = entry.patch;
+      patches[entry.patch].Add(voxel.position, voxel.normal);
+      OfferToNeighbours(entry, patches[entry.patch], queue);
     }
+    std::vector<std::uint32_t> patch_of_voxel(voxels_.size());
+    for (std::size_t i = 0; i < voxels_.size(); ++i) patch_of_voxel[i] = voxels_[i].patch;
     return patch_of_voxel;
   }
 
  private:
-  struct Sum {
-    float count = 0;
+  // All that a voxel needs, in half a cache line.
+  struct Voxel {
     Eigen::Vector3f position = Eigen::Vector3f::Zero();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-    Eigen::Vector3f direction = Eigen::Vector3f::Zero();
-
-    void Add(const Eigen::Vector3f& p, const Eigen::Vector3f& unit_normal) {
-      if (count == 0) {  // Sums relative to the first voxel keep their digits.
-        base = p;
-      }
-      count += 1;
-      position += p - base;
-      normal += unit_normal;
-      mean = base + position / count;
-      const float norm = normal.norm();
-      if (norm > 0) direction = normal / norm;
-    }
-    Eigen::Vector3f base = Eigen::Vector3f::Zero();
+    // The least distance it was offered yet: worse offers need no place in the queue.
+    float best_offer = 0;
+    std::uint32_t patch = kNoPatch;
   };
 
-  float Distance(const Sum& sum, std::uint32_t voxel) const {
-    const float spatial = (grid_.centroids[voxel] - sum.mean).norm();
-    const float cosine = std::clamp(normals_[voxel].dot(sum.direction), -1.0F, 1.0F);
-    return spatial_factor_ * spatial + normal_factor_ * (1 - cosine);
+  struct GrowingPatch {
+    float count = 0;
+    Eigen::Vector3f base = Eigen::Vector3f::Zero();  // Sums relative to it keep their digits.
+    Eigen::Vector3f position_sum = Eigen::Vector3f::Zero();
+    Eigen::Vector3f normal_sum = Eigen::Vector3f::Zero();
+    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+
+    void Add(const Eigen::Vector3f& p, const Eigen::Vector3f& unit_normal) {
+      count += 1;
+      position_sum += p - base;
+      normal_sum += unit_normal;
+      mean = base + position_sum / count;
+      const float norm = normal_sum.norm();
+      if (norm > 0) normal = normal_sum / norm;
+    }
+  };
+
+  void OfferToNeighbours(const BucketQueue::Entry& entry,
+                         const GrowingPatch& patch,
+                         BucketQueue& queue) {
+    const Eigen::Vector3f mean = patch.mean;
+    const Eigen::Vector3f normal = patch.normal;
+    for (const std::uint32_t index : grid_.NeighboursOf(entry.voxel)) {
+      Voxel& voxel = voxels_[index];
+      if (voxel.patch != kNoPatch) continue;
+      const float cosine = std::clamp(voxel.normal.dot(normal), -1.0F, 1.0F);
+      const float distance =
+          spatial_factor_ * (voxel.position - mean).norm() + normal_factor_ * (1 - cosine);
+      if (distance >= voxel.best_offer) continue;
+      voxel.best_offer = distance;
+      queue.Push(distance, {index, entry.patch});
+    }
   }
 
   const VoxelGrid& grid_;
-  const std::vector<Eigen::Vector3f>& normals_;
   float spatial_factor_;
   float normal_factor_;
-  std::vector<Sum> sums_;
+  std::vector<Voxel> voxels_;
 };
 
 // The centres of the grown patches, less those that stayed small.
 std::vector<Centre> CentresOf(const VoxelGrid& grid,
-                              const std::vector<Eigen::Vector3f>& normals,
                               const std::vector<std::uint32_t>& patch_of_voxel,
                               std::size_t num_patches,
                               std::size_t min_voxels) {
   struct Sum {
     std::size_t count = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     std::uint32_t nearest = 0;
     float distance = std::numeric_limits<float>::max();
   };
@@ -192,7 +212,6 @@ std::vector<Centre> CentresOf(const VoxelGrid& grid,
     Sum& sum = sums[patch_of_voxel[voxel]];
     ++sum.count;
     sum.position += grid.centroids[voxel].cast<double>();
-    sum.normal += normals[voxel];
   }
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
     if (patch_of_voxel[voxel] == kNoPatch) continue;
@@ -206,8 +225,7 @@ std::vector<Centre> CentresOf(const VoxelGrid& grid,
   std::vector<Centre> centres;
   for (const Sum& sum : sums) {
     if (sum.count < std::max<std::size_t>(min_voxels, 1)) continue;
-    centres.push_back({sum.nearest, (sum.position / static_cast<double>(sum.count)).cast<float>(),
-                       sum.normal.normalized()});
+    centres.push_back({sum.nearest, grid.centroids[sum.nearest]});
   }
   return centres;
 }
@@ -217,12 +235,12 @@ std::vector<Centre> CentresOf(const VoxelGrid& grid,
 Supervoxels GrowSupervoxels(const VoxelGrid& grid,
                             const std::vector<Eigen::Vector3f>& normals,
                             const SupervoxelOptions& options) {
-  std::vector<Centre> centres = PlaceSeeds(grid, normals, options.seed_spacing);
+  std::vector<Centre> centres = PlaceSeeds(grid, options.seed_spacing);
   Growth growth(grid, normals, options);
   Supervoxels result;
   for (int pass = 0; pass < options.num_passes; ++pass) {
     if (pass > 0) {
-      centres = CentresOf(grid, normals, result.patch_of_voxel, centres.size(), options.min_voxels);
+      centres = CentresOf(grid, result.patch_of_voxel, centres.size(), options.min_voxels);
     }
     result.patch_of_voxel = growth.Run(centres);
   }

@@ -58,6 +58,9 @@ struct ComponentOptions {
   double step_tolerance = 0.004;        // Step that still counts as smooth, metres.
   std::size_t min_patches = 2;          // Smaller components are unassigned.
   double min_structural_area = 0.25;  // Planes from here on are floor, wall, table: square metres.
+  double flush_tolerance = 0.01;      // Of a patch against its neighbour's tangent plane, metres.
+  double min_core_area = 0.1;     // A plane from here on, square metres, also takes patches that
+  double warp_tolerance = 0.045;  // continue it and are this near, metres.
 };
 
 }  // namespace semslam

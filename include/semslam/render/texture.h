@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+namespace semslam {
+
+// A picture that repeats in both directions, with a pyramid so that it can be sampled at any
+// distance without aliasing. An immutable value; safe to share between threads.
+class Texture {
+ public:
+  // CV_8UC3, BGR, not empty; kept as given (gamma-coded).
+  explicit Texture(const cv::Mat& image);
+
+  // Colour (BGR, gamma-coded, 0 to 1) at (u, v), where the picture covers [0, 1) x [0, 1) with v
+  // up, averaged over about `footprint` (width of the pixel's patch in units of the picture's
+  // width).
+  Eigen::Vector3f Sample(const Eigen::Vector2f& uv, float footprint) const;
+
+ private:
+  std::vector<cv::Mat> levels_;  // CV_8UC4, each half as large as the one before.
+};
+
+}  // namespace semslam

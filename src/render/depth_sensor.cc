@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "semslam/base/parallel.h"
+#include "semslam/render/hash.h"
+#include "semslam/render/sensor.h"
+
+namespace semslam {
+namespace {
+
+constexpr std::size_t kRowsPerChunk = 8;
+constexpr std::uint64_t kDepthStream = 0xde9;
+constexpr double kJump = 0.03;  // Depths that differ by more than this part belong to two surfaces.
+
+double Disparity(const DepthSensorOptions& options, double depth) {
+  return options.focal_px * options.baseline_m / depth;
+}
+
+// Marks the pixels of a row whose point the projector does not reach: another point of the row, as
+// seen from the projector, lies in the same direction and nearer. The projector is to the camera's
+// right, so its view of a pixel is shifted left by the disparity, and shadows lie to the left of
+// what casts them.
+std::vector<std::uint8_t> ShadowedPixels(const double* depth,
+                                         int width,
+                                         const DepthSensorOptions& options) {
+  std::vector<std::uint8_t> shadowed(static_cast<std::size_t>(width), 0);
+  // From the right to the left, a lit surface's directions go left as well. What falls back behind
+  // the leftmost direction so far is hidden by the nearer point that was there.
+  double leftmost = std::numeric_limits<double>::infinity();
+  for (int x = width - 1; x >= 0; --x) {
+    if (depth[x] <= 0) continue;
+    const double direction = x - Disparity(options, depth[x]);
+    if (direction > leftmost + 0.5) {
+      shadowed[x] = 1;
+    } else {
+      leftmost = std::min(leftmost, direction);
+    }
+  }
+  return shadowed;
+}
+
+bool BesideJump(const cv::Mat& depth, int x, int y) {
+  const double center = depth.at<double>(y, x);
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const int other_x = std::clamp(x + dx, 0, depth.cols - 1);
+    const int other_y = std::clamp(y + dy, 0, depth.rows - 1);
+    if (std::abs(depth.at<double>(other_y, other_x) - center) > kJump * center) return true;
+  }
+  return false;
+}
+
+// The depth where a pixel really looks.
+double FrayedDepth(const cv::Mat& depth, int x, int y, double fray, std::uint64_t hash) {
+  if (fray <= 0) return depth.at<double>(y, x);
+  const auto shift = [&](std::uint64_t bits) {
+    return static_cast<int>(std::lround(fray * NormalFloat(bits)));
+  };
+  const int frayed_x = std::clamp(x + shift(hash), 0, depth.cols - 1);
+  const int frayed_y = std::clamp(y + shift(MixBits(hash)), 0, depth.rows - 1);
+  const double center = depth.at<double>(y, x);
+  const double frayed = depth.at<double>(frayed_y, frayed_x);
+  // Only over a jump: on one surface the sensor's window averages such shifts away.
+  return std::abs(frayed - center) > kJump * center ? frayed : center;
+}
+
+// Noise and steps of the disparity.
+double MeasuredDepth(double depth, const DepthSensorOptions& options, std::uint64_t hash) {
+  double disparity = Disparity(options, depth) + options.disparity_noise_px * NormalFloat(hash);
+  if (options.disparity_step_px > 0) {
+    disparity = std::round(disparity / options.disparity_step_px) * options.disparity_step_px;
+  }
+  if (disparity <= 0) return 0;
+  return options.focal_px * options.baseline_m / disparity;
+}
+
+}  // namespace
+
+DepthSensorOptions DepthSensorOptions::Clean() {
+  DepthSensorOptions options;
+  options.disparity_step_px = 0;
+  options.disparity_noise_px = 0;
+  options.fray_px = 0;
+  options.min_depth_m = 0;
+  options.max_depth_m = std::numeric_limits<double>::infinity();
+  options.min_incidence = 0;
+  options.projector_shadow = false;
+  options.hole_rate = 0;
+  return options;
+}
+
+cv::Mat SenseDepth(const IdealImage& ideal,
+                   const FrameMotion& motion,
+                   const DepthSensorOptions& options,
+                   double depth_factor,
+                   int num_threads) {
+  const std::uint64_t frame_seed = HashOf(motion.seed, kDepthStream, motion.frame);
+  const cv::Mat& truth = ideal.depth;
+  cv::Mat depth(truth.size(), CV_16UC1, cv::Scalar(0));
+  const auto sense_row = [&](int row) {
+    std::vector<std::uint8_t> shadowed(static_cast<std::size_t>(truth.cols), 0);
+    if (options.projector_shadow)
+      shadowed = ShadowedPixels(truth.ptr<double>(row), truth.cols, options);
+    for (int x = 0; x < truth.cols; ++x) {
+      if (truth.at<double>(row, x) <= 0 || shadowed[x] != 0) continue;
+      if (ideal.incidence.at<float>(row, x) < options.min_incidence) continue;
+      const std::uint64_t hash =
+          HashOf(frame_seed, static_cast<std::uint64_t>(row) * truth.cols + x);
+      if (options.hole_rate > 0 && UnitFloat(hash) < options.hole_rate && BesideJump(truth, x, row))
+        continue;
+      const double frayed = FrayedDepth(truth, x, row, options.fray_px, MixBits(hash + 1));
+      if (frayed <= 0) continue;
+      const double measured = MeasuredDepth(frayed, options, MixBits(hash + 2));
+      if (measured < options.min_depth_m || measured > options.max_depth_m) continue;
+      const double units = std::round(measured * depth_factor);
+      if (units <= std::numeric_limits<std::uint16_t>::max()) {
+        depth.at<std::uint16_t>(row, x) = static_cast<std::uint16_t>(units);
+      }
+    }
+  };
+  ParallelFor(depth.rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t row = first; row < last; ++row) sense_row(static_cast<int>(row));
+  });
+  return depth;
+}
+
+}  // namespace semslam

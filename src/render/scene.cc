@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/render/scene.h"
+
+#include <limits>
+
+#include "semslam/base/check.h"
+
+namespace semslam {
+namespace {
+
+// The box of an object along the axes of its frame.
+OrientedBox BoundingBox(const Object& object, const Rigid3& T_world_object) {
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Vector3f high = -low;
+  for (const ObjectPart& part : object.parts) {
+    for (const Eigen::Vector3f& position : part.mesh.positions) {
+      low = low.cwiseMin(position);
+      high = high.cwiseMax(position);
+    }
+  }
+  const Eigen::Vector3d center = 0.5 * (low + high).cast<double>();
+  return {T_world_object * Rigid3{Eigen::Quaterniond::Identity(), center},
+          0.5 * (high - low).cast<double>()};
+}
+
+}  // namespace
+
+std::uint16_t Scene::Add(const Object& object, const Rigid3& T_world_object) {
+  SEMSLAM_CHECK(!object.parts.empty()) << object.class_name;
+  SEMSLAM_CHECK(instances_.size() < std::numeric_limits<std::uint16_t>::max());
+  const auto id = static_cast<std::uint16_t>(instances_.size() + 1);
+  instances_.push_back({id, object.class_name, BoundingBox(object, T_world_object)});
+  for (const ObjectPart& part : object.parts) {
+    parts_.push_back({Transformed(part.mesh, T_world_object), part.material, id});
+  }
+  return id;
+}
+
+void Scene::SetAmbient(const Eigen::Vector3f& from_above, const Eigen::Vector3f& from_below) {
+  ambient_above_ = from_above;
+  ambient_below_ = from_below;
+}
+
+}  // namespace semslam

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/render/clip.h"
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "support/desk_clip.h"
+#include "support/files.h"
+
+namespace semslam {
+namespace {
+
+using testing::CleanDeskClipOptions;
+using testing::DeskClipOptions;
+using testing::InputErrorOf;
+
+bool SameBytes(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+bool SameFrame(const RenderedFrame& a, const RenderedFrame& b) {
+  return SameBytes(a.color, b.color) && SameBytes(a.depth_16u, b.depth_16u) &&
+         SameBytes(a.ideal.labels, b.ideal.labels) && SameBytes(a.ideal.depth, b.ideal.depth);
+}
+
+TEST(RenderedClip, GivesTheSameBytesOnOneThreadAndOnThree) {
+  RenderedClip::Options options = DeskClipOptions(8);
+  options.num_threads = 1;
+  const RenderedFrame one = RenderedClip(options).Frame(5);
+  options.num_threads = 3;
+  EXPECT_TRUE(SameFrame(one, RenderedClip(options).Frame(5)));
+}
+
+TEST(RenderedClip, AFrameDoesNotDependOnWhatWasAskedBefore) {
+  const RenderedClip clip(DeskClipOptions(4));
+  const RenderedFrame first = clip.Frame(3);
+  clip.Frame(0);
+  EXPECT_TRUE(SameFrame(first, clip.Frame(3)));
+}
+
+TEST(RenderedClip, AnotherSeedIsAnotherClip) {
+  RenderedClip::Options options = DeskClipOptions(1);
+  const RenderedFrame one = RenderedClip(options).Frame(0);
+  options.seed = 2;
+  EXPECT_FALSE(SameFrame(one, RenderedClip(options).Frame(0)));
+}
+
+TEST(RenderedClip, IsASourceOfItsFrames) {
+  RenderedClip clip(DeskClipOptions(2));
+  EXPECT_EQ(clip.NumFrames(), 2U);
+  const std::optional<RgbdImage> first = clip.Next();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->time, clip.Time(0));
+  EXPECT_EQ(first->color.type(), CV_8UC3);
+  EXPECT_EQ(first->depth.type(), CV_32FC1);
+  EXPECT_TRUE(clip.Next());
+  EXPECT_FALSE(clip.Next());
+}
+
+TEST(RenderedClip, TimesAreWholeMicroseconds) {
+  const RenderedClip clip(DeskClipOptions(3));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(ParseTime(FormatTime(clip.Time(i))), clip.Time(i));
+}
+
+// Every pixel of a clean frame, taken back into the world, lies in the box of the instance that its
+// label names: depth, labels, pose, camera and boxes agree.
+TEST(RenderedClip, BackProjectedPixelsLieInTheBoxOfTheirInstance) {
+  RenderedClip::Options options = CleanDeskClipOptions(60);
+  options.camera = CameraByName("TUM1");
+  const RenderedClip clip(options);
+  const RenderedFrame frame = clip.Frame(40);
+  const RayTable rays(clip.camera());
+  const cv::Mat depth = DepthToMetres(frame.depth_16u, options.depth_factor);
+  std::set<int> seen;
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      const int id = frame.ideal.labels.at<std::uint16_t>(y, x);
+      ASSERT_GT(id, 0);  // The room is closed.
+      const Eigen::Vector3d p_world =
+          frame.T_world_camera * rays.Unproject(x, y, depth.at<float>(y, x)).cast<double>();
+      OrientedBox box = clip.instances()[id - 1].box;
+      box.half_size.array() += 4e-4;  // Rounding of depth, at most 0.1 mm times the ray's length.
+      ASSERT_TRUE(box.Contains(p_world))
+          << clip.instances()[id - 1].class_name << " at " << x << ' ' << y;
+      seen.insert(id);
+    }
+  }
+  EXPECT_GT(seen.size(), 10U);
+}
+
+TEST(RenderedClip, NoisyDepthLiesOnTheSurfaceWithinTheNoiseModel) {
+  const RenderedClip clip(DeskClipOptions(30));
+  const RenderedFrame frame = clip.Frame(20);
+  const DepthSensorOptions& model = clip.options().depth;
+  int num_valid = 0;
+  int num_outside = 0;
+  for (int y = 0; y < frame.depth_16u.rows; ++y) {
+    for (int x = 0; x < frame.depth_16u.cols; ++x) {
+      const double measured = frame.depth_16u.at<std::uint16_t>(y, x) / clip.options().depth_factor;
+      if (measured <= 0) continue;
+      const double truth = frame.ideal.depth.at<double>(y, x);
+      // The noise's largest value, half a step, and rounding.
+      const double limit = truth * truth / (model.focal_px * model.baseline_m) *
+                               (3.5 * model.disparity_noise_px + 0.5 * model.disparity_step_px) *
+                               1.05 +
+                           1e-4;
+      ++num_valid;
+      num_outside += std::abs(measured - truth) > limit ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_valid, 0.75 * frame.depth_16u.rows * frame.depth_16u.cols);
+  EXPECT_LT(num_outside, 0.03 * num_valid);  // Frayed edges.
+  EXPECT_GT(num_outside, 0);
+}
+
+TEST(RenderedClip, CleanFramesSeeTheSamePointInTheSameColour) {
+  // A point seen in frame 0 is looked up in frame 6 by pose and depth alone.
+  const RenderedClip clip(CleanDeskClipOptions(8));
+  const RenderedFrame a = clip.Frame(0);
+  const RenderedFrame b = clip.Frame(6);
+  const RayTable rays(clip.camera());
+  const Rigid3 T_b_a = b.T_world_camera.Inverse() * a.T_world_camera;
+  int num_compared = 0;
+  double sum_depth = 0;
+  double sum_color = 0;
+  for (int y = 20; y < 460; y += 3) {
+    for (int x = 20; x < 620; x += 3) {
+      const Eigen::Vector3d p_b =
+          T_b_a *
+          rays.Unproject(x, y, static_cast<float>(a.ideal.depth.at<double>(y, x))).cast<double>();
+      const Eigen::Vector2d pixel = clip.camera().Project(p_b);
+      const int u = cvRound(pixel.x());
+      const int v = cvRound(pixel.y());
+      if (u < 0 || v < 0 || u >= 640 || v >= 480) continue;
+      if (a.ideal.labels.at<std::uint16_t>(y, x) != b.ideal.labels.at<std::uint16_t>(v, u))
+        continue;
+      const double depth_error = std::abs(b.ideal.depth.at<double>(v, u) - p_b.z());
+      if (depth_error > 0.02) continue;  // Hidden by another part of the same thing.
+      sum_depth += depth_error;
+      sum_color +=
+          cv::norm(cv::Vec3i(a.color.at<cv::Vec3b>(y, x)) - cv::Vec3i(b.color.at<cv::Vec3b>(v, u)));
+      ++num_compared;
+    }
+  }
+  ASSERT_GT(num_compared, 20000);
+  EXPECT_LT(sum_depth / num_compared, 1.5e-3);  // The slope of a surface times half a pixel.
+  EXPECT_LT(sum_color / num_compared, 12);      // Texture times half a pixel.
+}
+
+TEST(RenderedClip, UnknownNamesAreErrorsThatListTheKnown) {
+  EXPECT_EQ(InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
+            "scene moon: unknown, expected one of desk, wall");
+  EXPECT_EQ(InputErrorOf([] { CameraByName("Leica"); }),
+            "camera Leica: unknown, expected one of TUM1, TUM3, Xtion");
+}
+
+TEST(RenderedClip, ImpossibleOptionsAreErrors) {
+  EXPECT_EQ(InputErrorOf([] { RenderedClip({.num_frames = 0}); }),
+            "frames: expected at least 1, found 0");
+  EXPECT_NE(InputErrorOf([] { RenderedClip({.fps = -1}); }).find("fps"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace semslam

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "semslam/render/clip.h"
+
+namespace semslam::testing {
+
+// The desk that tests run on: exact truth, nothing read from files. A test that needs it links
+// semslam::render.
+//
+//   RenderedClip clip(DeskClipOptions(30));
+//   while (std::optional<RgbdImage> image = clip.Next()) ...   // clip.T_world_camera(i) is the
+//   truth.
+inline RenderedClip::Options DeskClipOptions(int num_frames) {
+  return {.scene = "desk", .num_frames = num_frames};
+}
+
+// The same without noise, blur, missing depth and lens distortion.
+inline RenderedClip::Options CleanDeskClipOptions(int num_frames) {
+  RenderedClip::Options options = DeskClipOptions(num_frames);
+  options.camera = CameraByName("TUM3");
+  options.MakeClean();
+  return options;
+}
+
+}  // namespace semslam::testing
