@@ -7,53 +7,33 @@
 #include <functional>
 
 #include "semslam/base/error.h"
-#include "semslam/io/cloud_io.h"
-#include "semslam/io/map_picture.h"
-#include "semslam/io/objects_io.h"
+#include "semslam/io/map_files.h"
 #include "semslam/io/trajectory_io.h"
 
 namespace {
 
 using semslam::kNoClass;
 using semslam::PointCloudMapping;
+using semslam::SemanticMap;
 
 // In files 0 means no class.
 std::uint32_t FileLabel(int class_id) {
   return class_id == kNoClass ? 0 : static_cast<std::uint32_t>(class_id) + 1;
 }
 
-// The columns of the semantic map's files.
-struct SemanticColumns {
-  std::vector<semslam::Rgb> colors;
-  std::vector<std::uint32_t> labels;
-};
-
-SemanticColumns MakeColumns(const semslam::SemanticMap& map) {
-  SemanticColumns columns;
-  columns.colors.reserve(map.class_of_point.size());
-  columns.labels.reserve(map.class_of_point.size());
-  for (const int class_id : map.class_of_point) {
-    columns.colors.push_back(class_id == kNoClass ? semslam::kNoClassColor
-                                                  : map.classes.color(class_id));
-    columns.labels.push_back(FileLabel(class_id));
-  }
-  return columns;
-}
-
-// The classes of interest, and any other that an object has.
-std::vector<semslam::ClassRecord> MakeClasses(const semslam::SemanticMap& map) {
-  std::vector<semslam::ClassRecord> classes;
-  for (int id = 0; id < static_cast<int>(map.classes.size()); ++id) {
-    if (map.classes.is_of_interest(id)) {
-      classes.push_back({FileLabel(id), map.classes.name(id), map.classes.color(id)});
+std::vector<semslam::ClassRecord> ClassesOfInterest(const semslam::ClassTable& classes) {
+  std::vector<semslam::ClassRecord> records;
+  for (int id = 0; id < static_cast<int>(classes.size()); ++id) {
+    if (classes.is_of_interest(id)) {
+      records.push_back({FileLabel(id), classes.name(id), classes.color(id)});
     }
   }
-  return classes;
+  return records;
 }
 
-std::vector<semslam::ObjectRecord> MakeObjects(const semslam::SemanticMap& map) {
+std::vector<semslam::ObjectRecord> ToRecords(const std::vector<semslam::SemanticObject>& objects) {
   std::vector<semslam::ObjectRecord> records;
-  for (const semslam::SemanticObject& object : map.objects) {
+  for (const semslam::SemanticObject& object : objects) {
     semslam::ObjectRecord record;
     record.id = object.id;
     record.label = FileLabel(object.class_id);
@@ -67,6 +47,24 @@ std::vector<semslam::ObjectRecord> MakeObjects(const semslam::SemanticMap& map) 
   return records;
 }
 
+void WriteMap(const std::filesystem::path& folder, const PointCloudMapping::Result& map) {
+  std::vector<std::uint32_t> labels;
+  labels.reserve(map.semantics.class_of_point.size());
+  for (const int class_id : map.semantics.class_of_point) labels.push_back(FileLabel(class_id));
+  semslam::LabelledMapView view;
+  view.cloud = {.positions = map.cloud.positions,
+                .colors = map.cloud.colors,
+                .normals = map.cloud.normals,
+                .labels = labels,
+                .segments = map.semantics.segment_of_point,
+                .objects = map.semantics.object_of_point,
+                .confidences = map.semantics.confidence_of_point};
+  view.point_size = map.cloud.voxel_size;
+  view.classes = ClassesOfInterest(map.semantics.classes);
+  view.objects = ToRecords(map.semantics.objects);
+  semslam::WriteMapFiles(folder, view);
+}
+
 semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>& poses) {
   semslam::Trajectory trajectory;
   for (const auto& pose : poses) trajectory.push_back({pose.time, pose.T_world_camera});
@@ -78,52 +76,16 @@ semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>
 std::vector<std::string> WriteResults(const std::filesystem::path& folder,
                                       const semslam::System& system,
                                       const PointCloudMapping::Result& map) {
-  const SemanticColumns columns = MakeColumns(map.semantics);
-  const std::vector<semslam::ClassRecord> classes = MakeClasses(map.semantics);
-  const std::vector<semslam::ObjectRecord> objects = MakeObjects(map.semantics);
-  const std::vector<semslam::SegmentId>& segments = map.semantics.segment_of_point;
-  const auto& positions = map.cloud.positions;
-  const semslam::CloudView semantic_cloud{.positions = positions,
-                                          .colors = columns.colors,
-                                          .labels = columns.labels,
-                                          .segments = segments,
-                                          .objects = map.semantics.object_of_point,
-                                          .confidences = map.semantics.confidence_of_point};
   const std::function<void()> writers[] = {
       [&] {
-        WriteTrajectory(folder / "CameraTrajectory.txt", ToTrajectory(system.CameraTrajectory()));
+        semslam::WriteTrajectory(folder / "CameraTrajectory.txt",
+                                 ToTrajectory(system.CameraTrajectory()));
       },
       [&] {
-        WriteTrajectory(folder / "KeyFrameTrajectory.txt",
-                        ToTrajectory(system.KeyframeTrajectory()));
+        semslam::WriteTrajectory(folder / "KeyFrameTrajectory.txt",
+                                 ToTrajectory(system.KeyframeTrajectory()));
       },
-      [&] {
-        semslam::WritePcd(folder / "global_color.pcd",
-                          {.positions = positions, .colors = map.cloud.colors});
-      },
-      [&] {
-        semslam::WritePcd(folder / "segmentation.pcd",
-                          {.positions = positions, .labels = segments});
-      },
-      [&] {
-        semslam::WritePcd(
-            folder / "semantic_map.pcd",
-            {.positions = positions, .colors = columns.colors, .labels = columns.labels});
-      },
-      [&] { WritePly(folder / "semantic_map.ply", semantic_cloud); },
-      [&] { WriteObjects(folder / "objects.json", classes, objects); },
-      [&] {
-        semslam::MapPictureInput input;
-        input.cloud = {.positions = positions,
-                       .colors = map.cloud.colors,
-                       .normals = map.cloud.normals,
-                       .labels = columns.labels,
-                       .segments = segments};
-        input.point_size = map.cloud.voxel_size;
-        input.classes = classes;
-        input.objects = objects;
-        WriteMapPictures(folder, input);
-      },
+      [&] { WriteMap(folder, map); },
   };
   std::vector<std::string> errors;
   for (const auto& write : writers) {
