@@ -2,14 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/brief.h"
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include <opencv2/core.hpp>
 
 #include "features/orb_pattern.h"
 
 namespace semslam {
+namespace {
+
+// To the nearest integer, ties to even, as cvRound does: adding 1.5 * 2^23 leaves it in the low
+// bits.
+std::int32_t RoundToNearest(float value) {
+  constexpr float kShift = 12582912.0F;
+  return std::bit_cast<std::int32_t>(value + kShift) - std::bit_cast<std::int32_t>(kShift);
+}
+
+// Eight bytes 0 or 1 to the eight bits of a byte, the first one lowest.
+std::uint64_t PackBits(const std::uint8_t* bits) {
+  std::uint64_t bytes = 0;
+  std::memcpy(&bytes, bits, 8);
+  return (bytes * 0x0102040810204080) >> 56;
+}
+
+}  // namespace
 
 SteeredBrief::SteeredBrief() : pattern_x_{}, pattern_y_{} {
   for (int i = 0; i < kDescriptorBits; ++i) {
@@ -28,16 +47,20 @@ Descriptor SteeredBrief::Describe(const cv::Mat& blurred, int x, int y, float an
   const int step = static_cast<int>(blurred.step);
   const std::uint8_t* center = blurred.ptr<std::uint8_t>(y) + x;
 
-  std::array<std::uint8_t, kNumPoints> values;
+  // Three plain passes, so that the compiler can do the first and the last with vectors.
+  std::array<std::int32_t, kNumPoints> offsets;
   for (int i = 0; i < kNumPoints; ++i) {
-    const int u = cvRound(pattern_x_[i] * cosine - pattern_y_[i] * sine);
-    const int v = cvRound(pattern_x_[i] * sine + pattern_y_[i] * cosine);
-    values[i] = center[v * step + u];
+    const int u = RoundToNearest(pattern_x_[i] * cosine - pattern_y_[i] * sine);
+    const int v = RoundToNearest(pattern_x_[i] * sine + pattern_y_[i] * cosine);
+    offsets[i] = v * step + u;
   }
+  std::array<std::uint8_t, kNumPoints> values;
+  for (int i = 0; i < kNumPoints; ++i) values[i] = center[offsets[i]];
+  std::array<std::uint8_t, kDescriptorBits> bits;
+  for (int i = 0; i < kDescriptorBits; ++i) bits[i] = values[i] < values[kDescriptorBits + i];
   Descriptor descriptor;
-  for (int i = 0; i < kDescriptorBits; ++i) {
-    const std::uint64_t bit = values[i] < values[kDescriptorBits + i];
-    descriptor.bits[i / 64] |= bit << (i % 64);
+  for (int byte = 0; byte < kDescriptorBits / 8; ++byte) {
+    descriptor.bits[byte / 8] |= PackBits(&bits[8 * byte]) << (8 * (byte % 8));
   }
   return descriptor;
 }
