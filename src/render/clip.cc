@@ -18,6 +18,12 @@ const RenderedClip::Options& Checked(const RenderedClip::Options& options) {
   return options;
 }
 
+Renderer::Options RenderingOptions(const RenderedClip::Options& options) {
+  Renderer::Options rendering = options.rendering;
+  rendering.num_threads = options.num_threads;
+  return rendering;
+}
+
 }  // namespace
 
 void RenderedClip::Options::MakeClean() {
@@ -39,7 +45,7 @@ RenderedClip::RenderedClip(const Options& options)
       camera_(options_.camera),
       rays_(camera_),
       staged_(std::make_unique<const StagedScene>(MakeScene(options_.scene, options_.seed))),
-      renderer_(staged_->scene, {.num_threads = options_.num_threads}) {}
+      renderer_(staged_->scene, RenderingOptions(options_)) {}
 
 std::optional<RgbdImage> RenderedClip::Next() {
   if (next_ >= num_frames()) return std::nullopt;

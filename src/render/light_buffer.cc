@@ -75,6 +75,7 @@ LightBuffer::LightBuffer(const Scene& scene,
       sampled_(static_cast<std::size_t>(num_columns_) * num_rows_, Lighting::Ones()),
       filtered_(sampled_) {
   SEMSLAM_CHECK(scene.lights().size() <= kMaxLights) << "lights: " << scene.lights().size();
+  if (!options_.shadows && options_.occlusion_reach <= 0) return;  // All light everywhere.
   const auto for_rows = [&](auto body) {
     ParallelFor(num_rows_, 4, options_.num_threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
@@ -136,6 +137,7 @@ void LightBuffer::FilterRow(int row) {
 }
 
 Lighting LightBuffer::At(const SurfacePoint& point, int column, int row) const {
+  if (!options_.shadows && options_.occlusion_reach <= 0) return Lighting::Ones();
   const int x0 = column / 2;
   const int y0 = row / 2;
   Lighting sum = Lighting::Zero();

@@ -151,6 +151,22 @@ TEST(RenderedClip, CleanFramesSeeTheSamePointInTheSameColour) {
   EXPECT_LT(sum_color / num_compared, 12);      // Texture times half a pixel.
 }
 
+TEST(RenderedClip, ASmallFrameSeesWhatTheLargeOneSees) {
+  const RenderedFrame small = RenderedClip(testing::SmallDeskClipOptions(1)).Frame(0);
+  const RenderedFrame large = RenderedClip(DeskClipOptions(1)).Frame(0);
+  ASSERT_EQ(small.color.size(), cv::Size(320, 240));
+  int num_equal = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      num_equal += small.ideal.labels.at<std::uint16_t>(y, x) ==
+                           large.ideal.labels.at<std::uint16_t>(2 * y, 2 * x)
+                       ? 1
+                       : 0;
+    }
+  }
+  EXPECT_GT(num_equal, 0.97 * 320 * 240);  // Half a pixel of all edges.
+}
+
 TEST(RenderedClip, UnknownNamesAreErrorsThatListTheKnown) {
   EXPECT_EQ(InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
             "scene moon: unknown, expected one of desk, wall");

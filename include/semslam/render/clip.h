@@ -45,7 +45,8 @@ class RenderedClip : public FrameSource {
     double depth_factor = 5000;  // Depth image units a metre.
     ColorSensorOptions color = {};
     DepthSensorOptions depth = {};
-    int num_threads = 0;  // As ParallelFor.
+    Renderer::Options rendering = {};  // Its num_threads is not used: the one below counts.
+    int num_threads = 0;               // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
     void MakeClean();
     void Validate() const;  // Throws InputError.
