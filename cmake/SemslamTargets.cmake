@@ -37,7 +37,8 @@ function(semslam_add_program name)
 endfunction()
 
 # semslam_add_tests(NAME SOURCES file_test.cc ... DEPENDS targets ... [LABELS unit] [TIMEOUT 60])
-# One test program of GoogleTest cases; each case is a ctest test.
+# One test program of GoogleTest cases; each case is a ctest test. One label: unit, threads (also run
+# under the thread sanitizer), integration, dataset (needs real clips).
 function(semslam_add_tests name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
@@ -51,8 +52,29 @@ function(semslam_add_tests name)
   target_compile_definitions(${name} PRIVATE SEMSLAM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS} semslam_flags GTest::gmock GTest::gtest_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/test)
+  # What measures time or takes all cores runs alone; the rest may run side by side.
+  set(serial TRUE)
+  if(ARG_LABELS MATCHES "^(unit|threads)$")
+    set(serial FALSE)
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${serial})
+  semslam_collect_sanitized_tests(${name} ${ARG_LABELS})
+endfunction()
+
+# The targets that scripts/sanitize.sh builds: the test programs that fit each sanitizer.
+function(semslam_collect_sanitized_tests name label)
+  foreach(target semslam_asan_tests semslam_tsan_tests)
+    if(NOT TARGET ${target})
+      add_custom_target(${target})
+    endif()
+  endforeach()
+  if(label MATCHES "^(unit|threads)$")
+    add_dependencies(semslam_asan_tests ${name})
+  endif()
+  if(label STREQUAL "threads")
+    add_dependencies(semslam_tsan_tests ${name})
+  endif()
 endfunction()
 
 function(semslam_enable_tidy target)

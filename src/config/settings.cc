@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/config/settings.h"
 
+#include <sstream>
+
 #include "semslam/config/settings_file.h"
 
 namespace semslam {
@@ -31,13 +33,71 @@ void ReadCamera(SettingsFile& file, Settings& settings) {
   file.Require("DepthMapFactor", &settings.depth_factor, Range::Positive());
 }
 
-void ReadOrb(SettingsFile& file, Settings::Orb& orb) {
+void ReadOrb(SettingsFile& file, OrbExtractor::Options& orb) {
+  double scale_factor = orb.scale_factor;
   file.Require("ORBextractor.nFeatures", &orb.num_features, Range::Between(1, 100000));
-  file.Require("ORBextractor.scaleFactor", &orb.scale_factor, Range::Between(1.01, 4));
+  file.Require("ORBextractor.scaleFactor", &scale_factor, Range::Between(1.01, 4));
   file.Require("ORBextractor.nLevels", &orb.num_levels, Range::Between(1, 32));
-  file.Require("ORBextractor.iniThFAST", &orb.initial_threshold, Range::Between(1, 255));
-  file.Require("ORBextractor.minThFAST", &orb.minimum_threshold,
-               Range::Between(1, orb.initial_threshold));
+  file.Require("ORBextractor.iniThFAST", &orb.initial_fast_threshold, Range::Between(1, 255));
+  file.Require("ORBextractor.minThFAST", &orb.min_fast_threshold,
+               Range::Between(1, orb.initial_fast_threshold));
+  orb.scale_factor = static_cast<float>(scale_factor);
+}
+
+void ReadPointCloudMapping(SettingsFile& file, Settings& settings) {
+  DepthFilterOptions& depth = settings.cloud.depth;
+  file.Read("PointCloudMapping.minDepth", &depth.min_depth, Range::Positive());
+  file.Read("PointCloudMapping.maxDepth", &depth.max_depth, Range::Above(depth.min_depth));
+  file.Read("PointCloudMapping.pixelStride", &settings.cloud.pixel_stride, Range::Between(1, 16));
+  file.Read("PointCloudMapping.voxelSize", &settings.voxels.voxel_size, Range::Between(0.001, 1));
+  int min_views = static_cast<int>(settings.voxels.min_views);
+  file.Read("PointCloudMapping.minViews", &min_views, Range::Between(1, 1000));
+  settings.voxels.min_views = static_cast<std::uint32_t>(min_views);
+}
+
+void ReadSegmentation(SettingsFile& file, Segmenter::Options& options) {
+  file.Read("Segmentation.voxelSize", &options.supervoxels.voxel_size, Range::Between(0.001, 1));
+  file.Read("Segmentation.seedSpacing", &options.supervoxels.seed_spacing,
+            Range::Above(options.supervoxels.voxel_size));
+  file.Read("Segmentation.planeTolerance", &options.planes.tolerance, Range::Between(0.001, 1));
+  file.Read("Segmentation.minPlaneArea", &options.planes.min_area, Range::Positive());
+  file.Read("Segmentation.minStructuralArea", &options.components.min_structural_area,
+            Range::Positive());
+}
+
+void ReadSemanticMap(SettingsFile& file, FusionOptions& fusion) {
+  file.Read("SemanticMap.minConfidence", &fusion.min_confidence, Range::Between(0, 1));
+  int min_views = static_cast<int>(fusion.min_views);
+  file.Read("SemanticMap.minViews", &min_views, Range::Between(1, 1000));
+  fusion.min_views = static_cast<std::uint32_t>(min_views);
+}
+
+std::vector<std::string> SplitAtCommas(const std::string& list) {
+  std::vector<std::string> items;
+  std::istringstream stream(list);
+  for (std::string item; std::getline(stream, item, ',');) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+void ReadDetector(SettingsFile& file,
+                  const std::filesystem::path& folder,
+                  DetectorSettings& detector) {
+  const auto read_path = [&](const std::string& key, std::filesystem::path* path) {
+    std::string text;
+    file.Read(key, &text);
+    if (!text.empty()) *path = folder / text;  // An absolute path replaces the folder.
+  };
+  read_path("Detector.config", &detector.config);
+  read_path("Detector.weights", &detector.weights);
+  read_path("Detector.names", &detector.names);
+  std::string classes;
+  file.Read("Detector.classes", &classes);
+  detector.classes = SplitAtCommas(classes);
+  file.Read("Detector.scoreThreshold", &detector.score_threshold, Range::Between(0, 1));
+  file.Read("Detector.nmsThreshold", &detector.nms_threshold, Range::Between(0, 1));
+  file.Read("Detector.inputSize", &detector.input_size, Range::Between(0, 4096));
 }
 
 }  // namespace
@@ -47,6 +107,10 @@ Settings LoadSettings(const std::filesystem::path& path) {
   Settings settings;
   ReadCamera(file, settings);
   ReadOrb(file, settings.orb);
+  ReadPointCloudMapping(file, settings);
+  ReadSegmentation(file, settings.segmentation);
+  ReadSemanticMap(file, settings.fusion);
+  ReadDetector(file, path.parent_path(), settings.detector);
   settings.warnings = file.UnknownKeys();
   return settings;
 }

@@ -31,6 +31,12 @@ void KeyframeCloud::Options::Validate() const {
   depth.Validate();
 }
 
+float KeyframeCloud::pixel_angle() const {
+  const int column = rays_->width() / 2;
+  const int row = rays_->height() / 2;
+  return (rays_->At(column, row) - rays_->At(column - 1, row)).norm();
+}
+
 std::optional<KeyframePoint> KeyframeCloud::At(int grid_column, int grid_row) const {
   if (TexelAt(grid_column, grid_row).depth == 0) return std::nullopt;
   return Decode(grid_column, grid_row);

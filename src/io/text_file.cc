@@ -18,17 +18,6 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t,\r";
 
-std::vector<std::string> SplitFields(std::string_view line) {
-  std::vector<std::string> fields;
-  std::size_t first = line.find_first_not_of(kSeparators);
-  while (first != std::string_view::npos) {
-    const std::size_t last = std::min(line.find_first_of(kSeparators, first), line.size());
-    fields.emplace_back(line.substr(first, last - first));
-    first = line.find_first_not_of(kSeparators, last);
-  }
-  return fields;
-}
-
 [[noreturn]] void FailToRead(const std::filesystem::path& path, int error_number) {
   throw InputError(path.string() +
                    ": cannot read: " + std::generic_category().message(error_number));
@@ -67,6 +56,17 @@ std::string ReadWholeFile(const std::filesystem::path& path) {
     if (count == 0) return content;
     content.append(buffer.data(), static_cast<std::size_t>(count));
   }
+}
+
+std::vector<std::string> SplitFields(std::string_view line) {
+  std::vector<std::string> fields;
+  std::size_t first = line.find_first_not_of(kSeparators);
+  while (first != std::string_view::npos) {
+    const std::size_t last = std::min(line.find_first_of(kSeparators, first), line.size());
+    fields.emplace_back(line.substr(first, last - first));
+    first = line.find_first_not_of(kSeparators, last);
+  }
+  return fields;
 }
 
 std::string Quoted(std::string_view text) {

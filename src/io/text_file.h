@@ -16,6 +16,9 @@ std::string ReadWholeFile(const std::filesystem::path& path);
 // unprintable.
 std::string Quoted(std::string_view text);
 
+// What stands between spaces, tabs and commas.
+std::vector<std::string> SplitFields(std::string_view line);
+
 // A text file of lines with fields between spaces, tabs or commas. Empty lines and lines that start
 // with # are left out.
 class TextFile {

@@ -21,7 +21,12 @@ constexpr auto kWorkers = Threading::kWorkers;
 void IgnoreInput(int /*input*/) {}
 
 class StageInBothModes : public testing::TestWithParam<Threading> {};
-INSTANTIATE_TEST_SUITE_P(Threading, StageInBothModes, testing::Values(kInline, kWorkers));
+INSTANTIATE_TEST_SUITE_P(Threading,
+                         StageInBothModes,
+                         testing::Values(kInline, kWorkers),
+                         [](const auto& tested) {
+                           return tested.param == kInline ? "Inline" : "Workers";
+                         });
 
 TEST_P(StageInBothModes, HandlesEveryInputInOrder) {
   std::vector<int> handled;

@@ -79,7 +79,7 @@ TEST(Settings, HoldTheBenchmarksCalibration) {
   EXPECT_EQ(settings.camera.fx, 517.306408);
   EXPECT_EQ(settings.camera.k3, 1.163314);
   EXPECT_EQ(settings.orb.num_features, 1000);
-  EXPECT_EQ(settings.orb.minimum_threshold, 7);
+  EXPECT_EQ(settings.orb.min_fast_threshold, 7);
   EXPECT_NEAR(settings.CloseDepth(), 40 * 40 / 517.306408, 1e-12);
 }
 

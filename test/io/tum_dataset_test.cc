@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/io/tum_dataset.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -12,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "support/clips.h"
 #include "support/files.h"
 
 namespace semslam {
@@ -211,18 +211,9 @@ TEST_F(TumDatasetTest, SkipsAnImageThatVanishedAfterOpening) {
   EXPECT_EQ(dataset.Next()->time, 2 * kNsPerSecond);
 }
 
-std::filesystem::path ClipFolder(const std::string& name) {
-  const char* variable = std::getenv("SEMSLAM_CLIPS");
-  const std::filesystem::path clips =
-      variable != nullptr ? variable : SEMSLAM_SOURCE_DIR "/../shared/data/clips";
-  return clips / name;
-}
-
 TEST(TumDatasetOnRealClip, FindsThePairsOfTheBenchmarksOwnTool) {
-  const std::filesystem::path clip = ClipFolder("fr1_xyz_160");
-  if (!std::filesystem::exists(clip)) {
-    GTEST_SKIP() << clip << " is not there: scripts/get_tum.sh brings it, or set SEMSLAM_CLIPS";
-  }
+  const std::filesystem::path clip = testing::FindClip("fr1_xyz_160");
+  if (clip.empty()) GTEST_SKIP() << testing::kHowToGetClips;
   TumDataset dataset(clip, "-", {});
   const TumDataset from_file(clip, clip / "associations.txt", {});
   const auto pairs = [](const TumDataset& source) {

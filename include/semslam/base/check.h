@@ -15,6 +15,7 @@ class CheckFailure {
   }
   CheckFailure(const CheckFailure&) = delete;
   CheckFailure& operator=(const CheckFailure&) = delete;
+  // NOLINTNEXTLINE(bugprone-exception-escape): throwing is what it is for.
   ~CheckFailure() noexcept(false) { throw std::logic_error(text_.str()); }
 
   template <typename T>

@@ -56,6 +56,10 @@ class PinholeCamera {
   // Smallest rectangle of ideal pixels that holds every pixel of the recorded image.
   struct Bounds {
     double min_x, min_y, max_x, max_y;
+
+    bool Contains(const Eigen::Vector2d& pixel) const {
+      return pixel.x() >= min_x && pixel.x() <= max_x && pixel.y() >= min_y && pixel.y() <= max_y;
+    }
   };
   const Bounds& ideal_bounds() const { return ideal_bounds_; }
 

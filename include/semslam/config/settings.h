@@ -7,28 +7,48 @@
 #include <vector>
 
 #include "semslam/camera/pinhole_camera.h"
+#include "semslam/dense/keyframe_cloud.h"
+#include "semslam/dense/voxel_map.h"
+#include "semslam/features/orb_extractor.h"
+#include "semslam/mapping/local_mapping.h"
+#include "semslam/segmentation/segmenter.h"
+#include "semslam/semantics/semantic_map.h"
+#include "semslam/tracking/tracking.h"
 
 namespace semslam {
+
+// Which network looks for which objects. The program's command line can say the same.
+struct DetectorSettings {
+  std::filesystem::path config;  // Darknet's cfg; empty: no detector. Relative paths start at the
+                                 // settings file's folder.
+  std::filesystem::path weights;
+  std::filesystem::path names;       // One class name a line.
+  std::vector<std::string> classes;  // Of interest; empty: all.
+  double score_threshold = 0.25;
+  double nms_threshold = 0.45;  // Overlap above which the weaker detection of a class is dropped.
+  int input_size = 0;           // Pixels; 0: as the cfg says.
+};
 
 // All that a settings file says. The fields' defaults are those of the optional keys; what has no
 // sensible default must be in the file. config/README.md lists every key.
 struct Settings {
-  // ORBextractor.*: the keys of the published system.
-  struct Orb {
-    int num_features = 1000;     // Wanted per image.
-    double scale_factor = 1.2;   // Between two levels of the pyramid.
-    int num_levels = 8;          // Of the pyramid.
-    int initial_threshold = 20;  // FAST, grey levels.
-    int minimum_threshold = 7;   // FAST, where the first finds nothing.
-  };
-
   PinholeCamera::Parameters camera;
   double fps = 30;                 // Frames per second of the recording.
   double bf = 40;                  // Baseline times fx, pixels * metres.
   double close_depth_factor = 40;  // ThDepth: a depth is close if below this many baselines.
   double depth_factor = 5000;      // Value of a depth pixel at 1 m.
   bool is_rgb = true;              // Camera.RGB; images from files say their order themselves.
-  Orb orb;
+  OrbExtractor::Options orb;       // ORBextractor.*
+  Tracking::Options tracking;      // Its close_depth_m and frame rate are set from the above.
+  LocalMapping::Options mapping;   // The same.
+
+  // PointCloudMapping.*, Segmentation.*, SemanticMap.*
+  KeyframeCloud::Options cloud;
+  VoxelMap::Options voxels;
+  Segmenter::Options segmentation;
+  FusionOptions fusion;
+
+  DetectorSettings detector;  // Detector.*
 
   // What the file holds that nothing here asks for; to be shown to the user once.
   std::vector<std::string> warnings;

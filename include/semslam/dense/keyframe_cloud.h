@@ -48,6 +48,8 @@ class KeyframeCloud {
   std::size_t num_points() const { return num_points_; }
   // Distance of the furthest point from the camera's centre, metres. 0 without points.
   float max_range() const { return max_range_; }
+  // Angle between neighbouring pixels at the centre of the image, radians.
+  float pixel_angle() const;
   std::size_t memory_bytes() const { return texels_.size() * sizeof(Texel); }
 
   // Depth along the optical axis at a grid cell, metres; 0 where there is no point.

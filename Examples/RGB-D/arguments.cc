@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "arguments.h"
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "semslam/base/error.h"
+#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/recorded_detector.h"
+
+namespace {
+
+constexpr const char* kNamesInDetections = "classes.names";
+
+void AddOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("VOCABULARY", arguments.vocabulary,
+                 "Visual vocabulary: Vocabulary/orb.voc, or ORB-SLAM2's ORBvoc.txt")
+      ->required();
+  app.add_option("SETTINGS", arguments.settings, "Camera and parameters: config/TUM1.yaml, ...")
+      ->required();
+  app.add_option("SEQUENCE", arguments.sequence, "Folder of a TUM RGB-D sequence")->required();
+  app.add_option(
+         "ASSOCIATIONS", arguments.associations,
+         "File that pairs colour and depth images; - pairs them by nearest time within 20 ms")
+      ->required();
+  app.add_option("--output", arguments.output, "Folder for the results (default: here)");
+  CLI::Option* network =
+      app.add_option("--network", arguments.network, "Darknet network: CFG WEIGHTS NAMES")
+          ->expected(3);
+  CLI::Option* detections =
+      app.add_option("--detections", arguments.detections,
+                     "Folder of recorded detections, a YOLO text file an image, and classes.names")
+          ->excludes(network);
+  app.add_option("--classes", arguments.classes,
+                 "Classes to put into the map: cup,keyboard,... (default: all)")
+      ->delimiter(',');
+  app.add_option("--score", arguments.score, "Least score of a detection (default: 0.25)")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
+      ->excludes(network)
+      ->excludes(detections);
+  CLI::Option* sequential = app.add_flag("--sequential", arguments.sequential,
+                                         "Everything in one thread: two runs write the same bytes");
+  app.add_flag("--realtime", arguments.realtime,
+               "Keep the recorded frame times instead of going as fast as it can")
+      ->excludes(sequential);
+}
+
+}  // namespace
+
+ParseResult ParseArguments(int argc, char** argv) {
+  ParseResult result;
+  CLI::App app(
+      "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
+      "rgbd_tum");
+  app.set_version_flag("--version", SEMSLAM_VERSION);
+  AddOptions(app, result.arguments);
+  app.footer(
+      "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "
+      "of the frames.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    result.exit_code = app.exit(error) == 0 ? 0 : 1;
+  }
+  return result;
+}
+
+std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
+                                                const semslam::DetectorSettings& settings) {
+  if (arguments.no_semantics) return nullptr;
+  const std::vector<std::string>& interest =
+      arguments.classes.empty() ? settings.classes : arguments.classes;
+  const auto score = static_cast<float>(arguments.score.value_or(settings.score_threshold));
+  if (!arguments.detections.empty()) {
+    semslam::RecordedDetector::Options options;
+    options.folder = arguments.detections;
+    options.score_threshold = score;
+    return std::make_unique<semslam::RecordedDetector>(
+        options, semslam::ClassTable::FromFile(arguments.detections / kNamesInDetections)
+                     .WithInterest(interest));
+  }
+  semslam::DarknetDetector::Options options;
+  std::filesystem::path names = settings.names;
+  options.config = settings.config;
+  options.weights = settings.weights;
+  if (!arguments.network.empty()) {
+    options.config = arguments.network[0];
+    options.weights = arguments.network[1];
+    names = arguments.network[2];
+  }
+  if (options.config.empty()) {
+    if (interest.empty()) return nullptr;
+    throw semslam::InputError(
+        "classes were given, but no network: expected --network CFG WEIGHTS NAMES");
+  }
+  options.score_threshold = score;
+  options.nms_threshold = static_cast<float>(settings.nms_threshold);
+  options.input_size = settings.input_size;
+  return std::make_unique<semslam::DarknetDetector>(
+      options, semslam::ClassTable::FromFile(names).WithInterest(interest));
+}

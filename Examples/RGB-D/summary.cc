@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "summary.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace {
+
+double Quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+double PeakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in kilobytes.
+}
+
+// "2 cup, 1 keyboard".
+std::string CountClasses(const semslam::SemanticMap& map) {
+  std::map<std::string, int> counts;
+  for (const semslam::SemanticObject& object : map.objects)
+    ++counts[map.classes.name(object.class_id)];
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + name;
+  }
+  return text;
+}
+
+void PrintSemantics(const semslam::System& system, const semslam::PointCloudMapping::Result& map) {
+  if (!system.has_detector()) {
+    std::printf("objects               no detector was given: geometry and segments only\n");
+    return;
+  }
+  const semslam::DetectorThread::Statistics detector = system.detector_statistics();
+  const std::string classes = CountClasses(map.semantics);
+  std::printf("objects               %zu%s%s\n", map.semantics.objects.size(),
+              classes.empty() ? "" : ": ", classes.c_str());
+  std::printf("images labelled       %zu of %zu keyframes, %.1f ms each\n", detector.num_done,
+              detector.num_submitted, detector.mean_milliseconds);
+  if (detector.num_failed > 0) {
+    std::printf("images not labelled   %zu: %s\n", detector.num_failed,
+                detector.first_error.c_str());
+  }
+}
+
+}  // namespace
+
+void PrintSummary(const RunStatistics& run,
+                  const semslam::System& system,
+                  const semslam::PointCloudMapping::Result& map,
+                  const std::filesystem::path& output) {
+  const semslam::System::Status status = system.status();
+  std::printf("frames                %zu tracked, %zu lost, %zu unreadable, in %.1f s%s\n",
+              run.num_tracked, run.num_lost(), run.num_unreadable, run.seconds,
+              run.interrupted ? " (interrupted)" : "");
+  if (run.num_late > 0)
+    std::printf("late                  %zu frames by more than a frame\n", run.num_late);
+  std::printf("tracking time         median %.1f ms, p95 %.1f ms\n",
+              Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
+  std::printf("keyframes, landmarks  %zu, %zu\n", status.num_keyframes, status.num_landmarks);
+  std::printf("map points            %zu, %.1f ms a keyframe\n", map.cloud.size(),
+              map.integration_milliseconds);
+  std::printf("segments              %zu, in %.0f ms\n", map.segmentation.segments.size(),
+              map.segmentation_milliseconds);
+  PrintSemantics(system, map);
+  std::printf("peak memory           %.0f MB\n", PeakMegabytes());
+  std::printf("files                 %s\n",
+              std::filesystem::absolute(output).lexically_normal().c_str());
+}

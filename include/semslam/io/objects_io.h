@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "semslam/dense/rgb.h"
+#include "semslam/geometry/oriented_box.h"
+
+namespace semslam {
+
+// A class as files and pictures show it. `label` is the number that stands in the label column of
+// the semantic map's files; 0 is kept for "no class".
+struct ClassRecord {
+  std::uint32_t label = 0;
+  std::string name;
+  Rgb color;
+};
+
+struct ObjectRecord {
+  std::uint32_t id = 0;     // From 1, as in the object column of the semantic map's files.
+  std::uint32_t label = 0;  // Of its class.
+  double confidence = 0;    // Of its class, in [0, 1].
+  std::uint64_t num_views = 0;
+  std::uint64_t num_points = 0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres.
+  OrientedBox box;                                     // World.
+};
+
+// Writes objects.json: units, frame, class table, and the objects in the given order, each with id,
+// class (label and name), confidence, num_views, num_points, centroid and oriented box (centre,
+// rotation as quaternion x y z w, size along the box's axes). Throws InputError.
+void WriteObjects(const std::filesystem::path& path,
+                  const std::vector<ClassRecord>& classes,
+                  const std::vector<ObjectRecord>& objects);
+
+}  // namespace semslam

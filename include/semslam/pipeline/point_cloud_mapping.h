@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "semslam/base/guarded.h"
+#include "semslam/base/id.h"
+#include "semslam/base/stage.h"
+#include "semslam/camera/pinhole_camera.h"
+#include "semslam/camera/rgbd_image.h"
+#include "semslam/dense/keyframe_cloud.h"
+#include "semslam/dense/voxel_map.h"
+#include "semslam/geometry/rigid3.h"
+#include "semslam/segmentation/segmenter.h"
+#include "semslam/semantics/semantic_map.h"
+
+namespace semslam {
+
+// Builds the dense map from keyframes in a thread of its own, keeps it in step with the keyframes'
+// poses, segments it and puts the detector's labels on the segments (paper, sections 3.1 to 3.3).
+class PointCloudMapping {
+ public:
+  struct Options {
+    KeyframeCloud::Options cloud;
+    VoxelMap::Options voxels;
+    Segmenter::Options segmentation;
+    FusionOptions fusion;
+    std::size_t queue_capacity =
+        32;  // Keyframes and detections waiting; the producer of more waits.
+    void Validate() const;
+  };
+
+  // Poses of keyframes by id; those no longer in the map (it was cleared) are missing. Called from
+  // this class's thread.
+  using PoseLookup = std::function<std::map<KeyframeId, Rigid3>(const std::vector<KeyframeId>&)>;
+
+  struct Result {
+    MapCloud cloud;
+    Segmentation segmentation;
+    SemanticMap semantics;
+    double integration_milliseconds = 0;   // Mean, a keyframe.
+    double segmentation_milliseconds = 0;  // Of the final pass.
+    double fusion_milliseconds = 0;        // Of the final pass.
+  };
+
+  PointCloudMapping(Threading threading,
+                    const Options& options,
+                    const PinholeCamera& camera,
+                    ClassTable classes,
+                    PoseLookup pose_lookup);
+
+  // False once finished or failed.
+  bool InsertKeyframe(KeyframeId keyframe, RgbdImagePtr image);
+  bool InsertDetections(KeyframeId keyframe, std::vector<Detection> detections);
+
+  // Works off what is queued, ends the thread, brings the map to the keyframes' final poses and
+  // labels it. Rethrows what the thread threw.
+  Result Finish();
+
+  std::size_t queue_size() const { return stage_.queue_size(); }
+  std::size_t num_voxels() const {
+    return num_voxels_.Read([](std::size_t n) { return n; });
+  }
+
+ private:
+  struct KeyframeJob {
+    KeyframeId keyframe;
+    RgbdImagePtr image;
+  };
+  struct DetectionsJob {
+    KeyframeId keyframe;
+    std::vector<Detection> detections;
+  };
+  using Job = std::variant<KeyframeJob, DetectionsJob>;
+
+  void Process(Job job);
+  void Integrate(const KeyframeJob& job);
+  void FollowPoses(double max_shift);
+  std::vector<LabelledKeyframe> LabelledKeyframes() const;
+
+  const Options options_;
+  const std::shared_ptr<const RayTable> rays_;
+  const ClassTable classes_;
+  const PoseLookup pose_lookup_;
+  // The stage's own, until it has finished.
+  VoxelMap voxel_map_;
+  std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds_;
+  std::map<KeyframeId, std::vector<Detection>> detections_;
+  double integration_seconds_ = 0;
+  std::size_t num_integrated_ = 0;
+
+  Guarded<std::size_t> num_voxels_{0};
+  Stage<Job> stage_;  // Last: its thread ends before what it uses.
+};
+
+}  // namespace semslam

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "semslam/base/guarded.h"
+#include "semslam/base/log.h"
+#include "semslam/base/stage.h"
+#include "semslam/base/time.h"
+#include "semslam/camera/pinhole_camera.h"
+#include "semslam/camera/rgbd_image.h"
+#include "semslam/config/settings.h"
+#include "semslam/features/frame_builder.h"
+#include "semslam/map/map.h"
+#include "semslam/mapping/local_mapping.h"
+#include "semslam/pipeline/detector_thread.h"
+#include "semslam/pipeline/point_cloud_mapping.h"
+#include "semslam/place/vocabulary.h"
+#include "semslam/semantics/detector.h"
+#include "semslam/tracking/tracking.h"
+
+namespace semslam {
+
+// The whole: tracking in the caller's thread, local mapping, dense mapping and the detector each in
+// its own (or all in the caller's, with Threading::kInline: then the same input gives the same
+// bytes).
+//
+//   System system(settings, vocabulary, {});
+//   while (auto image = source.Next()) system.TrackRGBD(std::make_shared<const
+//   RgbdImage>(*std::move(image))); const PointCloudMapping::Result map = system.Shutdown();
+//   WriteTrajectory("CameraTrajectory.txt", system.CameraTrajectory());
+//
+// TrackRGBD and Shutdown belong to one thread; the const methods may be called from any.
+class System {
+ public:
+  struct Options {
+    Threading threading = Threading::kWorkers;
+    std::unique_ptr<Detector> detector;  // Null: geometry and segments only.
+    LogSink log;                         // May be empty.
+  };
+
+  // What can be watched while it runs.
+  struct Status {
+    std::size_t num_keyframes = 0;
+    std::size_t num_landmarks = 0;
+    std::size_t num_voxels = 0;
+    std::size_t mapping_queue = 0;
+    std::size_t dense_queue = 0;
+    std::size_t detector_queue = 0;
+  };
+
+  struct TrackedPose {
+    TimeNs time = 0;
+    Rigid3 T_world_camera;
+  };
+
+  // Throws InputError for settings that make no sense.
+  System(const Settings& settings, std::shared_ptr<const Vocabulary> vocabulary, Options options);
+  ~System();
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  // Frames in the order of time; an image of the wrong size or type throws std::logic_error.
+  // Rethrows what a thread threw.
+  Tracking::Result TrackRGBD(const RgbdImagePtr& image);
+
+  // Lets every thread finish what is queued, and returns the final dense, segmented and labelled
+  // map. Call it once; the trajectories stay available. Without it, the destructor ends the threads
+  // and drops what is queued.
+  PointCloudMapping::Result Shutdown();
+
+  // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
+  std::vector<TrackedPose> CameraTrajectory() const;
+  std::vector<TrackedPose> KeyframeTrajectory() const;
+
+  Status status() const;
+  DetectorThread::Statistics detector_statistics() const;
+  bool has_detector() const { return detector_ != nullptr; }
+
+ private:
+  struct KeyframeJob {
+    KeyframeId keyframe;
+    RgbdImagePtr image;
+  };
+  // A frame's pose relative to a keyframe, so that it follows every correction.
+  struct TrajectoryEntry {
+    TimeNs time = 0;
+    KeyframeId reference;
+    Rigid3 T_reference_camera;
+  };
+
+  void MapKeyframe(const KeyframeJob& job);
+  std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
+  void Log(LogLevel level, const std::string& message) const;
+
+  const Threading threading_;
+  const LogSink log_;
+  const FrameBuilder frame_builder_;
+  SharedMap map_;
+  Tracking tracking_;
+  LocalMapping local_mapping_;
+  Guarded<std::vector<TrajectoryEntry>> trajectory_;
+  // Each stage after those it feeds, so that the feeder ends first.
+  PointCloudMapping point_cloud_mapping_;
+  std::unique_ptr<DetectorThread> detector_;
+  Stage<KeyframeJob> mapping_stage_;
+};
+
+}  // namespace semslam

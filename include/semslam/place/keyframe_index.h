@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+#include "semslam/base/id.h"
+#include "semslam/place/bag_of_words.h"
+
+namespace semslam {
+
+// Which keyframes show a word: finds those that look like an image without going through them all.
+class KeyframeIndex {
+ public:
+  struct Match {
+    KeyframeId keyframe;
+    int num_shared_words = 0;
+    float score = 0;  // As Score() of the two vectors.
+  };
+
+  // A keyframe must not be added twice.
+  void Add(KeyframeId keyframe, const BowVector& bow);
+  // With the vector it was added with; std::logic_error if it was not.
+  void Erase(KeyframeId keyframe, const BowVector& bow);
+  std::size_t num_keyframes() const { return num_keyframes_; }
+
+  // All keyframes that share a word with the image, most similar first (equals by id).
+  std::vector<Match> FindSimilar(const BowVector& bow) const;
+
+ private:
+  struct Occurrence {
+    KeyframeId keyframe;
+    float weight;
+  };
+  std::unordered_map<WordId, std::vector<Occurrence>> occurrences_;
+  std::size_t num_keyframes_ = 0;
+};
+
+}  // namespace semslam

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "semslam/dense/keyframe_cloud.h"
+#include "semslam/dense/voxel_index.h"
+#include "semslam/geometry/rigid3.h"
+#include "semslam/segmentation/segmenter.h"
+#include "semslam/semantics/detection.h"
+
+namespace semslam {
+
+// A keyframe that the detector has looked at: its points, its present pose, and what was found.
+struct LabelledKeyframe {
+  std::shared_ptr<const KeyframeCloud> cloud;
+  Rigid3 T_world_camera;
+  std::vector<Detection> detections;  // Empty: looked at, nothing found.
+};
+
+struct EvidenceOptions {
+  double min_inside_share = 0.6;   // Of a segment's visible pixels that must be inside the box.
+  double min_filled_share = 0.1;   // Of the box's foreground that the segment must fill.
+  double core_share = 0.5;         // Middle part of the box, per side, where the object surely is.
+  double max_depth_step = 0.02;    // Metres between neighbouring pixels of one object, plus
+  double depth_step_at_1m = 0.01;  // this times z^2 for the noise.
+  int max_hole = 4;                // Grid cells without depth that do not part an object.
+  double border_share = 0.08;      // Of the box's shorter side where pixels count less, down to
+  double border_weight = 0.5;      // this at the border itself: boxes are not exact.
+  std::uint32_t min_pixels = 12;   // Grid cells; fewer tell nothing about a segment.
+  double min_visible_share = 0.3;  // Of the segment's area, for evidence of a class,
+  double min_visible_share_background = 0.5;  // and of there being none.
+  double background_weight = 0.2;             // Of a view in which no box holds the segment.
+
+  void Validate() const;  // Throws InputError.
+};
+
+// Sums over keyframes for one segment, in units of kEvidenceUnit. Integers, so that the order of
+// keyframes does not matter.
+struct SegmentEvidence {
+  std::vector<std::int64_t> alpha;       // By class.
+  std::vector<std::int64_t> part_alpha;  // The same without the rule of min_filled_share: the small
+                                         // pieces of an over-segmented object.
+  std::vector<std::uint32_t> num_views;  // By class: keyframes whose box held the segment.
+  std::int64_t background = 0;
+  std::uint32_t num_seen = 0;  // Keyframes that saw enough of it to judge.
+};
+inline constexpr double kEvidenceUnit = 1.0 / (1 << 20);
+
+struct SegmentPair {
+  SegmentId first = 0;  // first < second.
+  SegmentId second = 0;
+  friend auto operator<=>(SegmentPair, SegmentPair) = default;
+};
+
+struct Evidence {
+  std::vector<SegmentEvidence> segments;  // segments[i] belongs to segment i + 1.
+  // In how many keyframes two segments belonged to the foreground of one box.
+  std::map<SegmentPair, std::uint32_t> num_shared_boxes;
+};
+
+// What the detections of all keyframes say about the segments of the map. In every keyframe, each
+// box's foreground is what is connected in depth to the middle of the box and does not belong to a
+// large plane. A segment gets from a box
+//   alpha(c) += p_box(c) r z e,
+// r: share of its visible pixels inside the box, z: share of those that belong to the foreground,
+// e: less than 1 near the box's border; of several boxes in one keyframe the best counts for each
+// class. A segment that is seen well and is in no box gets evidence of being no object. Only
+// visible pixels count, so occluded views say nothing. Segments larger than any instance of the
+// class, and large planes, do not take the class.
+//
+// `index` finds the point of the map at a place, `segmentation` belongs to the same points.
+Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
+                         const VoxelIndex& index,
+                         const Segmentation& segmentation,
+                         const ClassTable& classes,
+                         const EvidenceOptions& options);
+
+}  // namespace semslam

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "semslam/base/time.h"
+#include "semslam/semantics/detector.h"
+
+namespace semslam {
+
+// Detections that another program wrote: one text file an image, in YOLO's format, a line
+//   class cx cy width height [score]
+// for every object, the class as a number from 0, the rest relative to the image's size in [0, 1].
+// A missing score means 1. The file's name is the colour image's time in seconds, as in TUM
+// sequences (1305031102.175304.txt). An image without a file has no detections.
+class RecordedDetector : public Detector {
+ public:
+  struct Options {
+    std::filesystem::path folder;
+    double max_time_difference = 0.005;  // Seconds between image and file name.
+    float score_threshold = 0.0F;        // Lower scores are left out.
+  };
+
+  // Reads all files; throws InputError with file and line for anything that is not as described.
+  RecordedDetector(const Options& options, ClassTable classes);
+
+  std::vector<Detection> Detect(const RgbdImage& image) override;
+  const ClassTable& classes() const override { return classes_; }
+  std::size_t num_images() const { return images_.size(); }
+
+ private:
+  struct Image {
+    TimeNs time;
+    std::vector<Detection> detections;  // Boxes relative to the image's size.
+  };
+  Options options_;
+  ClassTable classes_;
+  std::vector<Image> images_;  // By time.
+};
+
+}  // namespace semslam

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "semslam/dense/map_cloud.h"
+#include "semslam/dense/voxel_index.h"
+#include "semslam/geometry/oriented_box.h"
+#include "semslam/segmentation/segmenter.h"
+#include "semslam/semantics/class_table.h"
+#include "semslam/semantics/evidence.h"
+
+namespace semslam {
+
+using ObjectId = std::uint32_t;  // From 1; 0: no object.
+
+// One thing of a known class in the world.
+struct SemanticObject {
+  ObjectId id = 0;
+  int class_id = kNoClass;
+  double confidence = 0;        // Share of the evidence that is for its class, in [0, 1].
+  std::uint32_t num_views = 0;  // Keyframes in which the detector saw it.
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres; mean of its points.
+  OrientedBox box;                                     // World.
+  std::size_t num_points = 0;
+  std::vector<SegmentId> segments;  // Ascending.
+};
+
+// The map with a class for every point that has one. The vectors belong to the points of the map
+// cloud by index.
+struct SemanticMap {
+  std::vector<SegmentId> segment_of_point;
+  std::vector<int> class_of_point;         // kNoClass: background or unknown.
+  std::vector<float> confidence_of_point;  // Of the class; 0 without one.
+  std::vector<ObjectId> object_of_point;   // 0: none.
+  std::vector<SemanticObject> objects;     // By id.
+  ClassTable classes;
+  ObjectId next_object_id = 1;
+};
+
+struct FusionOptions {
+  EvidenceOptions evidence;
+  double min_confidence = 0.3;     // Of a segment's class.
+  std::uint32_t min_views = 2;     // Keyframes that saw it as this class (or all that saw it).
+  double min_shared_share = 0.5;   // Parts of one object are under one box in this share of views
+  double max_part_gap = 0.04;      // and no farther apart than this, metres.
+  double max_object_shift = 0.15;  // Metres between centroids of one object before and after.
+  void Validate() const;           // Throws InputError.
+};
+
+// Gives every segment the class that the detections of all keyframes speak for, joins the segments
+// of one object, and lists the objects (section 3.3 of the paper; sums of evidence after Sunderhauf
+// et al., IROS 2017). A pure function of its arguments, independent of the order of keyframes: call
+// it again after any correction, with the keyframes' present poses. Without keyframes all points
+// are background.
+//
+// `cloud`, `index` and `segmentation` belong together. With `previous`, an object found again keeps
+// its id, new ones get ids never used before.
+SemanticMap BuildSemanticMap(const MapCloud& cloud,
+                             const VoxelIndex& index,
+                             const Segmentation& segmentation,
+                             std::span<const LabelledKeyframe> keyframes,
+                             const ClassTable& classes,
+                             const FusionOptions& options,
+                             const SemanticMap* previous = nullptr);
+
+}  // namespace semslam

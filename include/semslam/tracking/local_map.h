@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "semslam/base/id.h"
+#include "semslam/map/map.h"
+#include "semslam/tracking/tracked_frame.h"
+
+namespace semslam {
+
+// Tracking's own flat copy of the landmarks around the current frame, so that it searches them
+// without the map's lock.
+class LocalMap {
+ public:
+  struct Entry {
+    LandmarkId id;
+    LandmarkAppearance appearance;
+  };
+
+  // Takes the keyframes that share landmarks with the frame, their neighbours in covisibility and
+  // in the spanning tree (80 at most), and copies the landmarks of all of them. The copy is skipped
+  // if neither these keyframes nor the map has changed. False if the frame shares no landmark with
+  // any keyframe: everything stays as it was.
+  bool Update(const SharedMap& map, const TrackedFrame& frame);
+
+  const std::vector<Entry>& landmarks() const { return landmarks_; }  // Ascending ids.
+  // The keyframe that shares most landmarks with the frame.
+  KeyframeId reference_keyframe() const { return reference_; }
+
+ private:
+  std::vector<KeyframeId> keyframes_;  // Ascending.
+  std::vector<Entry> landmarks_;
+  KeyframeId reference_;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace semslam

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "semslam/camera/pinhole_camera.h"
+#include "semslam/map/map.h"
+#include "semslam/optim/camera_model.h"
+#include "semslam/place/vocabulary.h"
+#include "semslam/tracking/keyframe_policy.h"
+#include "semslam/tracking/local_map.h"
+#include "semslam/tracking/tracked_frame.h"
+
+namespace semslam {
+
+enum class TrackingState {
+  kNotInitialized,  // No frame with enough features yet.
+  kTracking,
+  kLost,
+};
+
+// Finds the pose of each frame in the map and decides which frames become keyframes (Mur-Artal,
+// Montiel, Tardos, "ORB-SLAM", 2015, section V; RGB-D case: Mur-Artal, Tardos, "ORB-SLAM2", 2017).
+// One thread at a time; the map is shared with local mapping, and locked only for short copies and
+// to insert a keyframe.
+class Tracking {
+ public:
+  struct Options {
+    int min_features_to_start = 500;  // The first frame needs more.
+    double close_depth_m =
+        3.1;  // Depth is trusted like a stereo baseline of ThDepth: closer points are "close".
+    int min_close_points = 100;  // New landmarks: all close points, or this many of the closest.
+    float search_radius_px =
+        15.0F;  // Around the prediction from the last frame, at the finest level.
+    int min_motion_matches =
+        20;  // Fewer: search twice as wide, then fall back on the reference keyframe.
+    int min_reference_matches = 15;   // With the reference keyframe, by visual words.
+    int min_pose_inliers = 10;        // After optimising with either.
+    int min_inliers = 30;             // In the local map; fewer: lost.
+    int min_inliers_after_loss = 50;  // The same for the first second after being found again.
+    std::size_t min_keyframes_to_keep = 5;  // Lost with no more keyframes than these: start over.
+    KeyframePolicy::Options keyframes;
+    void Validate() const;  // Throws std::logic_error.
+  };
+
+  struct Result {
+    TrackingState state = TrackingState::kNotInitialized;
+    Rigid3 T_world_camera;          // Meaningful only if kTracking, like all below.
+    KeyframeId reference_keyframe;  // The pose is kept relative to it, so that it follows the map.
+    Rigid3 T_reference_camera;
+    int num_inliers = 0;  // Landmarks that agree with the pose.
+    std::optional<KeyframeId>
+        new_keyframe;            // Inserted into the map with this frame; local mapping is due.
+    bool map_was_reset = false;  // Everything before this frame is void.
+  };
+
+  Tracking(const Options& options,
+           const PinholeCamera& camera,
+           double baseline_times_fx,
+           std::shared_ptr<const Vocabulary> vocabulary,
+           SharedMap& map);
+
+  // `frame` must be newer than the one before. An image without features is a normal case: it is
+  // lost.
+  Result Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
+
+ private:
+  Result Initialize(std::shared_ptr<const Frame> frame);
+  void BringLastFrameUpToDate();
+  std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
+  std::optional<TrackedFrame> TrackWithMotion(const std::shared_ptr<const Frame>& frame) const;
+  std::optional<TrackedFrame> TrackKeyframe(const std::shared_ptr<const Frame>& frame,
+                                            KeyframeId keyframe) const;
+  std::optional<TrackedFrame> FindAgain(const std::shared_ptr<const Frame>& frame) const;
+  int TrackLocalMap(TrackedFrame* current);
+  Result Succeed(TrackedFrame current, int num_inliers, const MapperLoad& mapper);
+  Result Fail(std::shared_ptr<const Frame> frame);
+  KeyframePolicy::Situation Assess(const TrackedFrame& current,
+                                   int num_inliers,
+                                   KeyframeId reference,
+                                   const MapperLoad& mapper) const;
+  KeyframeId InsertKeyframe(TrackedFrame* current);
+  void ApplySightings(Map& map);
+
+  const Options options_;
+  const PinholeCamera camera_;
+  const StereoCamera stereo_;
+  const std::shared_ptr<const Vocabulary> vocabulary_;
+  SharedMap& map_;
+  const ScaleSpace scale_space_;
+
+  TrackingState state_ = TrackingState::kNotInitialized;
+  KeyframePolicy keyframe_policy_;
+  LocalMap local_map_;
+  TrackedFrame last_;          // The last frame that was tracked.
+  KeyframeId last_reference_;  // last_ relative to this keyframe, see T_reference_last_.
+  Rigid3 T_reference_last_;
+  std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
+  int num_frames_since_found_ = 0;     // After a loss; large before the first.
+  int num_frames_since_keyframe_ = 0;
+
+  struct Sightings {
+    int num_visible = 0;
+    int num_found = 0;
+  };
+  std::unordered_map<LandmarkId, Sightings> sightings_;  // Not yet told to the map.
+};
+
+}  // namespace semslam

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/pyramid.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "semslam/base/check.h"
+
+namespace semslam {
+namespace {
+
+constexpr int kWeightBits = 7;  // A pixel times a weight then fits 16 bits with a sign.
+constexpr int kOne = 1 << kWeightBits;
+
+// Source position of a coordinate of the result: weight_next / kOne of the way from pixel `index`
+// to the next one.
+struct Tap {
+  std::int32_t index;
+  std::int16_t weight;
+  std::int16_t weight_next;
+};
+
+std::vector<Tap> MakeTaps(int size, int source_size, double ratio) {
+  std::vector<Tap> taps(size);
+  for (int i = 0; i < size; ++i) {
+    const double position = std::min(i * ratio, source_size - 1.0);
+    const int index = std::clamp(static_cast<int>(position), 0, std::max(source_size - 2, 0));
+    const auto next = static_cast<std::int16_t>(std::lround((position - index) * kOne));
+    taps[i] = {index, static_cast<std::int16_t>(kOne - next), next};
+  }
+  return taps;
+}
+
+}  // namespace
+
+cv::Size LevelSize(const cv::Size& full_size, float scale) {
+  return {static_cast<int>(std::lround(static_cast<float>(full_size.width) / scale)),
+          static_cast<int>(std::lround(static_cast<float>(full_size.height) / scale))};
+}
+
+cv::Mat Shrink(const cv::Mat& source, const cv::Size& size, double ratio) {
+  SEMSLAM_CHECK(source.type() == CV_8UC1 && source.cols >= 2 && source.rows >= 2)
+      << source.cols << "x" << source.rows << ", type " << source.type();
+  const std::vector<Tap> columns = MakeTaps(size.width, source.cols, ratio);
+  const std::vector<Tap> rows = MakeTaps(size.height, source.rows, ratio);
+  cv::Mat result(size, CV_8UC1);
+  std::vector<std::int16_t> mixed(source.cols);
+  for (int y = 0; y < size.height; ++y) {
+    const std::uint8_t* upper = source.ptr<std::uint8_t>(rows[y].index);
+    const std::uint8_t* lower = source.ptr<std::uint8_t>(rows[y].index + 1);
+    const std::int16_t weight = rows[y].weight;
+    const std::int16_t weight_next = rows[y].weight_next;
+    for (int x = 0; x < source.cols; ++x) {
+      mixed[x] = static_cast<std::int16_t>(upper[x] * weight + lower[x] * weight_next);
+    }
+    std::uint8_t* out = result.ptr<std::uint8_t>(y);
+    for (int x = 0; x < size.width; ++x) {
+      const Tap& tap = columns[x];
+      const int sum = mixed[tap.index] * tap.weight + mixed[tap.index + 1] * tap.weight_next;
+      out[x] = static_cast<std::uint8_t>((sum + kOne * kOne / 2) >> (2 * kWeightBits));
+    }
+  }
+  return result;
+}
+
+namespace {
+
+constexpr int kBlurRadius = 3;
+
+// exp(-i^2 / (2 sigma^2)) for i = 0 ... 3, sigma = 2, normalised to a sum of 1.
+std::array<float, kBlurRadius + 1> BlurWeights() {
+  std::array<double, kBlurRadius + 1> weights{};
+  double sum = 0;
+  for (int i = 0; i <= kBlurRadius; ++i) {
+    weights[i] = std::exp(-i * i / 8.0);
+    sum += i == 0 ? weights[i] : 2 * weights[i];
+  }
+  std::array<float, kBlurRadius + 1> normalised{};
+  for (int i = 0; i <= kBlurRadius; ++i) normalised[i] = static_cast<float>(weights[i] / sum);
+  return normalised;
+}
+
+// ... 2 1 | 0 1 2 ... size-1 | size-2 ...
+int Mirror(int i, int size) { return i < 0 ? -i : i >= size ? 2 * size - 2 - i : i; }
+
+// One row blurred along x; `padded` is scratch of width + 2 radius.
+void BlurRow(const std::uint8_t* row,
+             int width,
+             const std::array<float, kBlurRadius + 1>& k,
+             std::vector<float>& padded,
+             float* __restrict out) {
+  float* middle = padded.data() + kBlurRadius;
+  for (int x = 0; x < width; ++x) middle[x] = row[x];
+  for (int i = 1; i <= kBlurRadius; ++i) {
+    middle[-i] = middle[i];
+    middle[width - 1 + i] = middle[width - 1 - i];
+  }
+  for (int x = 0; x < width; ++x) {
+    const float* p = middle + x;
+    out[x] = k[0] * p[0] + k[1] * (p[-1] + p[1]) + k[2] * (p[-2] + p[2]) + k[3] * (p[-3] + p[3]);
+  }
+}
+
+// Rows blurred along x to one row blurred along y too. Adding 1.5 * 2^23 rounds to the nearest
+// integer, ties to even, and leaves it in the low bits.
+void BlurColumns(const std::array<const float*, 2 * kBlurRadius + 1>& r,
+                 int width,
+                 const std::array<float, kBlurRadius + 1>& k,
+                 std::uint8_t* __restrict out) {
+  for (int x = 0; x < width; ++x) {
+    const float sum = k[0] * r[3][x] + k[1] * (r[2][x] + r[4][x]) + k[2] * (r[1][x] + r[5][x]) +
+                      k[3] * (r[0][x] + r[6][x]);
+    out[x] = static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(sum + 12582912.0F));
+  }
+}
+
+}  // namespace
+
+cv::Mat BlurForBrief(const cv::Mat& image) {
+  SEMSLAM_CHECK(image.type() == CV_8UC1 && image.cols > kBlurRadius && image.rows > kBlurRadius)
+      << image.cols << "x" << image.rows << ", type " << image.type();
+  constexpr int kNumRows = 2 * kBlurRadius + 1;
+  const std::array<float, kBlurRadius + 1> weights = BlurWeights();
+  const int width = image.cols;
+  std::vector<float> padded(width + 2 * kBlurRadius);
+  std::vector<float> ring(static_cast<std::size_t>(kNumRows) * width);  // Row y at y % 7.
+  const auto ring_row = [&](int y) { return ring.data() + (y % kNumRows) * width; };
+
+  cv::Mat result(image.size(), CV_8UC1);
+  int num_blurred = 0;
+  for (int y = 0; y < image.rows; ++y) {
+    for (; num_blurred < std::min(y + kBlurRadius + 1, image.rows); ++num_blurred) {
+      BlurRow(image.ptr<std::uint8_t>(num_blurred), width, weights, padded, ring_row(num_blurred));
+    }
+    std::array<const float*, kNumRows> rows{};
+    for (int i = 0; i < kNumRows; ++i) {
+      rows[i] = ring_row(Mirror(y + i - kBlurRadius, image.rows));
+    }
+    BlurColumns(rows, width, weights, result.ptr<std::uint8_t>(y));
+  }
+  return result;
+}
+
+}  // namespace semslam

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/pipeline/system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "semslam/base/check.h"
+
+namespace semslam {
+namespace {
+
+// More than the keyframe policy ever lets wait, so that tracking never does.
+constexpr std::size_t kMappingQueueCapacity = 16;
+
+Tracking::Options TrackingOptions(const Settings& settings) {
+  Tracking::Options options = settings.tracking;
+  options.close_depth_m = settings.CloseDepth();
+  options.keyframes.max_frames_between = std::max(1, static_cast<int>(std::lround(settings.fps)));
+  return options;
+}
+
+LocalMapping::Options MappingOptions(const Settings& settings) {
+  LocalMapping::Options options = settings.mapping;
+  options.close_depth_m = settings.CloseDepth();
+  return options;
+}
+
+PointCloudMapping::Options PointCloudOptions(const Settings& settings) {
+  PointCloudMapping::Options options;
+  options.cloud = settings.cloud;
+  options.voxels = settings.voxels;
+  options.segmentation = settings.segmentation;
+  options.fusion = settings.fusion;
+  return options;
+}
+
+}  // namespace
+
+System::System(const Settings& settings,
+               std::shared_ptr<const Vocabulary> vocabulary,
+               Options options)
+    : threading_(options.threading),
+      log_(std::move(options.log)),
+      frame_builder_(settings.orb, PinholeCamera(settings.camera), settings.bf),
+      map_(ScaleSpace{settings.orb.scale_factor, settings.orb.num_levels}),
+      tracking_(
+          TrackingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
+      local_mapping_(
+          MappingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
+      point_cloud_mapping_(options.threading,
+                           PointCloudOptions(settings),
+                           PinholeCamera(settings.camera),
+                           options.detector ? options.detector->classes() : ClassTable(),
+                           [this](const std::vector<KeyframeId>& ids) { return LookUpPoses(ids); }),
+      detector_(options.detector
+                    ? std::make_unique<DetectorThread>(
+                          options.threading,
+                          std::move(options.detector),
+                          [this](KeyframeId keyframe, std::vector<Detection> detections) {
+                            point_cloud_mapping_.InsertDetections(keyframe, std::move(detections));
+                          })
+                    : nullptr),
+      mapping_stage_({.threading = options.threading, .queue_capacity = kMappingQueueCapacity},
+                     [this](const KeyframeJob& job) { MapKeyframe(job); }) {}
+
+System::~System() {
+  mapping_stage_.Cancel();
+  if (detector_) detector_->Cancel();
+}
+
+Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
+  SEMSLAM_CHECK(image != nullptr);
+  auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
+  const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
+  const Tracking::Result result = tracking_.Track(std::move(frame), load);
+  if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
+  if (result.state == TrackingState::kTracking) {
+    trajectory_.Write([&](std::vector<TrajectoryEntry>& entries) {
+      if (result.map_was_reset) entries.clear();
+      entries.push_back({image->time, result.reference_keyframe, result.T_reference_camera});
+    });
+  }
+  if (result.new_keyframe && !mapping_stage_.Submit({*result.new_keyframe, image})) {
+    mapping_stage_.Finish();  // It failed: tell why.
+  }
+  return result;
+}
+
+void System::MapKeyframe(const KeyframeJob& job) {
+  const auto newer_waits = [this] { return mapping_stage_.queue_size() > 0; };
+  const LocalMapping::Report report = local_mapping_.Process(job.keyframe, newer_waits);
+  if (report.is_void) return;
+  point_cloud_mapping_.InsertKeyframe(job.keyframe, job.image);
+  if (detector_) detector_->Submit(job.keyframe, job.image);
+}
+
+PointCloudMapping::Result System::Shutdown() {
+  mapping_stage_.Finish();
+  if (detector_) detector_->Finish();
+  return point_cloud_mapping_.Finish();
+}
+
+std::map<KeyframeId, Rigid3> System::LookUpPoses(const std::vector<KeyframeId>& ids) const {
+  return map_.Read([&](const Map& map) {
+    std::map<KeyframeId, Rigid3> poses;
+    for (const KeyframeId id : ids) {
+      if (const std::optional<Rigid3> pose = map.ResolvePose(id)) poses[id] = *pose;
+    }
+    return poses;
+  });
+}
+
+std::vector<System::TrackedPose> System::CameraTrajectory() const {
+  const auto entries = trajectory_.Read([](const std::vector<TrajectoryEntry>& e) { return e; });
+  return map_.Read([&](const Map& map) {
+    std::vector<TrackedPose> poses;
+    for (const TrajectoryEntry& entry : entries) {
+      const std::optional<Rigid3> T_world_reference = map.ResolvePose(entry.reference);
+      if (T_world_reference)
+        poses.push_back({entry.time, *T_world_reference * entry.T_reference_camera});
+    }
+    return poses;
+  });
+}
+
+std::vector<System::TrackedPose> System::KeyframeTrajectory() const {
+  return map_.Read([](const Map& map) {
+    std::vector<TrackedPose> poses;
+    for (const KeyframeId id : map.KeyframeIds()) {
+      const Keyframe& keyframe = map.keyframe(id);
+      poses.push_back({keyframe.frame->time, keyframe.T_world_camera});
+    }
+    return poses;
+  });
+}
+
+System::Status System::status() const {
+  Status status;
+  map_.Read([&](const Map& map) {
+    status.num_keyframes = map.num_keyframes();
+    status.num_landmarks = map.num_landmarks();
+  });
+  status.num_voxels = point_cloud_mapping_.num_voxels();
+  status.mapping_queue = mapping_stage_.queue_size();
+  status.dense_queue = point_cloud_mapping_.queue_size();
+  status.detector_queue = detector_ ? detector_->queue_size() : 0;
+  return status;
+}
+
+DetectorThread::Statistics System::detector_statistics() const {
+  return detector_ ? detector_->statistics() : DetectorThread::Statistics{};
+}
+
+void System::Log(LogLevel level, const std::string& message) const {
+  if (log_) log_(level, "system", message);
+}
+
+}  // namespace semslam

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segmentation/plane_scores.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "semslam/base/parallel.h"
+
+namespace semslam {
+namespace {
+
+constexpr double kWrongNormalFactor = 100.0;
+constexpr double kSupportScale = 10.0;  // D = -S / (kSupportScale * A_min).
+// A little more than the double count, so that a plane without support of its own loses.
+constexpr double kOverlapFactor = 1.05;
+
+double SoftWeight(double cost, double tolerance) { return std::exp(-cost / (2 * tolerance)); }
+
+double AngleTerm(const Plane& a, const Plane& b) {
+  const double cosine = std::min(std::abs(a.normal.dot(b.normal)), 1.0);
+  const double q = cosine < 0.5 ? cosine : 1.0 - cosine;
+  return 0.5 * (1.0 - std::exp(-q / 0.25));
+}
+
+}  // namespace
+
+double PatchCost(const Patch& patch, const Plane& plane, double min_normal_cosine) {
+  const double distance = std::abs(plane.SignedDistance(patch.centroid));
+  const bool agrees = std::abs(plane.normal.dot(patch.normal)) >= min_normal_cosine;
+  return agrees ? distance : kWrongNormalFactor * distance;
+}
+
+std::vector<double> SoftSupports(const std::vector<Patch>& patches,
+                                 std::span<const Plane> planes,
+                                 const PlaneHypothesisOptions& options,
+                                 int num_threads) {
+  // Weights below exp(-10) are not worth an exponential.
+  const double max_cost = 20 * options.tolerance;
+  std::vector<double> supports(planes.size(), 0.0);
+  ParallelFor(planes.size(), 16, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t m = first; m < last; ++m) {
+      for (const Patch& patch : patches) {
+        if (std::abs(planes[m].SignedDistance(patch.centroid)) > max_cost) continue;
+        const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
+        if (cost <= max_cost) supports[m] += patch.area * SoftWeight(cost, options.tolerance);
+      }
+    }
+  });
+  return supports;
+}
+
+SelectionEnergy MakeSelectionEnergy(const std::vector<Patch>& patches,
+                                    std::span<const Plane> planes,
+                                    const PlaneHypothesisOptions& options) {
+  const auto size = static_cast<Eigen::Index>(planes.size());
+  const double unit = 1.0 / (kSupportScale * options.min_area);
+  SelectionEnergy energy{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
+  std::vector<std::pair<Eigen::Index, double>> weights;
+  for (const Patch& patch : patches) {
+    weights.clear();
+    for (Eigen::Index m = 0; m < size; ++m) {
+      const double cost =
+          PatchCost(patch, planes[static_cast<std::size_t>(m)], options.min_normal_cosine);
+      if (cost > 20 * options.tolerance) continue;
+      weights.emplace_back(m, unit * patch.area * SoftWeight(cost, options.tolerance));
+    }
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const auto [m, weight_m] = weights[i];
+      energy.unary[m] -= weight_m;
+      for (std::size_t j = i + 1; j < weights.size(); ++j) {
+        const auto [l, weight_l] = weights[j];
+        energy.pairwise(m, l) += 0.5 * kOverlapFactor * std::min(weight_m, weight_l);
+      }
+    }
+  }
+  for (Eigen::Index m = 0; m < size; ++m) {
+    for (Eigen::Index l = m + 1; l < size; ++l) {
+      energy.pairwise(m, l) +=
+          AngleTerm(planes[static_cast<std::size_t>(m)], planes[static_cast<std::size_t>(l)]);
+      energy.pairwise(l, m) = energy.pairwise(m, l);
+    }
+  }
+  return energy;
+}
+
+}  // namespace semslam

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace semslam {
+
+struct KeyedIndex {
+  std::uint64_t key = 0;
+  std::uint32_t index = 0;
+};
+
+// Sorts by key; equal keys keep their order. `num_bits`: no key has a bit set from there on.
+void RadixSort(std::vector<KeyedIndex>& items, int num_bits);
+
+}  // namespace semslam

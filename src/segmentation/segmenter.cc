@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/segmentation/segmenter.h"
+
+#include <utility>
+
+#include "semslam/base/stopwatch.h"
+
+#include "segmentation/components.h"
+#include "segmentation/patches.h"
+#include "segmentation/plane_assignment.h"
+#include "segmentation/plane_hypotheses.h"
+#include "segmentation/plane_scores.h"
+#include "segmentation/plane_selection.h"
+#include "segmentation/summary.h"
+#include "segmentation/supervoxels.h"
+#include "segmentation/surface_growth.h"
+#include "segmentation/voxel_grid.h"
+#include "segmentation/voxel_normals.h"
+
+namespace semslam {
+namespace {
+
+double Lap(Stopwatch& watch) {
+  const double milliseconds = watch.Milliseconds();
+  watch.Restart();
+  return milliseconds;
+}
+
+std::vector<Plane> KeepSelected(const std::vector<Plane>& planes,
+                                const std::vector<bool>& is_selected) {
+  std::vector<Plane> selected;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (is_selected[i]) selected.push_back(planes[i]);
+  }
+  return selected;
+}
+
+std::vector<SegmentId> SegmentOfPoints(const VoxelGrid& grid,
+                                       const std::vector<SegmentId>& segment_of_voxel) {
+  std::vector<SegmentId> segment_of_point;
+  segment_of_point.reserve(grid.voxel_of_point.size());
+  for (const std::uint32_t voxel : grid.voxel_of_point) {
+    segment_of_point.push_back(voxel == kNoVoxel ? 0 : segment_of_voxel[voxel]);
+  }
+  return segment_of_point;
+}
+
+}  // namespace
+
+Segmenter::Segmenter(const Options& options) : options_(options) { options_.Validate(); }
+
+Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
+  const int num_threads = options_.num_threads;
+  Segmentation result;
+  Stopwatch watch;
+
+  const VoxelGrid grid = BuildConnectedVoxelGrid(
+      cloud, options_.supervoxels.voxel_size, options_.supervoxels.max_voxel_growth, num_threads);
+  result.times.voxels = Lap(watch);
+  const std::vector<Eigen::Vector3f> normals = ComputeVoxelNormals(grid, num_threads);
+  result.times.normals = Lap(watch);
+  const Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
+  result.times.supervoxels = Lap(watch);
+  const PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels);
+  result.times.patches = Lap(watch);
+
+  std::vector<Plane> planes = ProposePlanes(graph.patches, options_.planes, num_threads);
+  result.num_hypotheses = planes.size();
+  result.times.planes = Lap(watch);
+  const SelectionEnergy energy = MakeSelectionEnergy(graph.patches, planes, options_.planes);
+  planes = KeepSelected(planes, SelectPlanes(energy, options_.selection));
+  result.times.selection = Lap(watch);
+  std::vector<std::uint32_t> plane_labels =
+      AssignPlanes(graph, planes, options_.planes, options_.assignment);
+  plane_labels = GrowSurfaces(graph, planes, std::move(plane_labels), options_.components);
+  result.times.assignment = Lap(watch);
+
+  const Components components = FindComponents(graph, plane_labels, options_.components);
+  const std::vector<SegmentId> segment_of_voxel = SegmentOfVoxels(supervoxels, components);
+  result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel);
+  result.times.components = Lap(watch);
+  result.planes = ToCloudFrame(planes, graph, plane_labels, grid.origin);
+  result.segments = Summarise(grid, graph, components, result.planes, segment_of_voxel);
+  result.voxel_size = grid.voxel_size;
+  result.num_voxels = grid.size();
+  result.num_supervoxels = graph.patches.size();
+  result.times.summary = Lap(watch);
+  return result;
+}
+
+double SegmentationTimes::Total() const {
+  return voxels + normals + supervoxels + patches + planes + selection + assignment + components +
+         summary;
+}
+
+}  // namespace semslam

@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/semantics/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "semslam/base/check.h"
+#include "semslam/base/error.h"
+
+#include "semantics/box_foreground.h"
+
+namespace semslam {
+namespace {
+
+constexpr double kMinCosine = 0.2;  // Of slanted views, when pixels are turned into areas.
+
+std::int64_t ToUnits(double value) { return std::llround(value / kEvidenceUnit); }
+
+// How much of a segment one keyframe sees.
+struct Visibility {
+  std::uint32_t num_pixels = 0;  // Grid cells.
+  double area = 0;               // Square metres of surface.
+};
+
+// Pixels of a segment inside one box.
+struct Overlap {
+  std::uint32_t num_inside = 0;
+  std::uint32_t num_foreground = 0;
+  double border_factor = 0;  // Sum over the foreground pixels.
+};
+
+// 1 inside, falling linearly to border_weight at the border of the box.
+double BorderFactor(const ImageBox& box, int column, int row, const EvidenceOptions& options) {
+  const double x = column + 0.5;
+  const double y = row + 0.5;
+  const double distance = std::min(std::min<double>(x - box.min_x, box.max_x - x),
+                                   std::min<double>(y - box.min_y, box.max_y - y));
+  const double margin = std::max(1.0, options.border_share * std::min(box.width(), box.height()));
+  const double depth = std::clamp(distance / margin, 0.0, 1.0);
+  return options.border_weight + (1.0 - options.border_weight) * depth;
+}
+
+// One keyframe's evidence, kept apart until all its boxes are known.
+class KeyframeJudge {
+ public:
+  KeyframeJudge(const LabelledKeyframe& keyframe,
+                const VoxelIndex& index,
+                const Segmentation& segmentation,
+                const ClassTable& classes,
+                const EvidenceOptions& options)
+      : keyframe_(keyframe),
+        segmentation_(segmentation),
+        classes_(classes),
+        options_(options),
+        visibility_(segmentation.segments.size() + 1),
+        largest_inside_share_(segmentation.segments.size() + 1) {
+    DrawSegments(index);
+  }
+
+  void AddTo(Evidence& evidence) {
+    for (const Detection& detection : keyframe_.detections) JudgeBox(detection);
+    for (SegmentId segment = 1; segment < visibility_.size(); ++segment) {
+      if (IsSeen(segment, options_.min_visible_share)) ++evidence.segments[segment - 1].num_seen;
+    }
+    AddBest(evidence);
+    AddBackground(evidence);
+  }
+
+ private:
+  struct Gain {  // Of one segment from its best box, by class.
+    std::vector<double> alpha;
+    std::vector<double> part_alpha;
+    std::vector<bool> is_seen_as;  // The box's best class.
+  };
+
+  const Segment& SegmentOf(SegmentId id) const { return segmentation_.segments[id - 1]; }
+
+  void DrawSegments(const VoxelIndex& index) {
+    const KeyframeCloud& cloud = *keyframe_.cloud;
+    image_.columns = cloud.grid_columns();
+    image_.rows = cloud.grid_rows();
+    const std::size_t num_cells =
+        static_cast<std::size_t>(image_.columns) * static_cast<std::size_t>(image_.rows);
+    image_.segments.assign(num_cells, 0);
+    image_.depth.assign(num_cells, 0.0F);
+    const double cell_angle = static_cast<double>(cloud.pixel_angle()) * cloud.stride();
+    cloud.ForEach([&](const KeyframePoint& point) {
+      const std::size_t cell =
+          image_.Cell(point.column / cloud.stride(), point.row / cloud.stride());
+      image_.depth[cell] = point.p_camera.z();
+      const auto found = index.Find(keyframe_.T_world_camera * point.p_camera.cast<double>());
+      if (!found) return;
+      const SegmentId segment = segmentation_.segment_of_point[*found];
+      if (segment == 0) return;
+      image_.segments[cell] = segment;
+      const double side = cell_angle * point.p_camera.z();
+      const double cosine = -point.n_camera.dot(point.p_camera.normalized());
+      visibility_[segment].area += side * side / std::max(cosine, kMinCosine);
+      ++visibility_[segment].num_pixels;
+    });
+  }
+
+  bool IsSeen(SegmentId segment, double min_share) const {
+    const Visibility& visible = visibility_[segment];
+    return visible.num_pixels >= options_.min_pixels &&
+           visible.area >= min_share * SegmentOf(segment).area;
+  }
+
+  bool CanBe(SegmentId segment, int class_id) const {
+    const Segment& candidate = SegmentOf(segment);
+    if (candidate.is_structural && !classes_.may_be_structural(class_id)) return false;
+    return 2 * candidate.box.half_size.maxCoeff() <= classes_.max_extent(class_id);
+  }
+
+  std::map<SegmentId, Overlap> MeasureOverlaps(const Detection& detection,
+                                               const CellRange& range,
+                                               std::size_t& num_foreground) const {
+    std::vector<bool> is_barrier(visibility_.size(), false);
+    for (SegmentId id = 1; id < is_barrier.size(); ++id) {
+      is_barrier[id] =
+          SegmentOf(id).is_structural && !classes_.may_be_structural(detection.class_id);
+    }
+    std::map<SegmentId, Overlap> overlaps;
+    for (int row = range.first_row; row < range.last_row; ++row) {
+      for (int column = range.first_column; column < range.last_column; ++column) {
+        const SegmentId segment = image_.segments[image_.Cell(column, row)];
+        if (segment != 0) ++overlaps[segment].num_inside;
+      }
+    }
+    const auto foreground = FindForeground(image_, range, is_barrier, options_);
+    num_foreground = foreground.size();
+    const int stride = keyframe_.cloud->stride();
+    for (const std::size_t cell : foreground) {
+      if (image_.segments[cell] == 0) continue;
+      Overlap& overlap = overlaps[image_.segments[cell]];
+      const int column = static_cast<int>(cell % static_cast<std::size_t>(image_.columns));
+      const int row = static_cast<int>(cell / static_cast<std::size_t>(image_.columns));
+      ++overlap.num_foreground;
+      overlap.border_factor += BorderFactor(detection.box, column * stride, row * stride, options_);
+    }
+    return overlaps;
+  }
+
+  void JudgeBox(const Detection& detection) {
+    const CellRange range =
+        CellRange::Of(detection.box, keyframe_.cloud->stride(), image_.columns, image_.rows);
+    if (range.empty()) return;
+    std::size_t num_foreground = 0;
+    std::vector<SegmentId> held;
+    for (const auto& [segment, overlap] : MeasureOverlaps(detection, range, num_foreground)) {
+      const double inside_share =
+          double(overlap.num_inside) / double(visibility_[segment].num_pixels);
+      largest_inside_share_[segment] = std::max(largest_inside_share_[segment], inside_share);
+      if (inside_share < options_.min_inside_share || overlap.num_foreground == 0) continue;
+      if (!IsSeen(segment, options_.min_visible_share)) continue;
+      const double filled_share = double(overlap.num_foreground) / double(num_foreground);
+      AddGain(segment, detection, inside_share, overlap, filled_share >= options_.min_filled_share);
+      // Half or more of it is the object's, not something before or behind it.
+      if (2 * overlap.num_foreground >= overlap.num_inside) held.push_back(segment);
+    }
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      for (std::size_t j = i + 1; j < held.size(); ++j) {
+        shared_.push_back({held[i], held[j]});  // The map's order: held is ascending.
+      }
+    }
+  }
+
+  void AddGain(SegmentId segment,
+               const Detection& detection,
+               double inside_share,
+               const Overlap& overlap,
+               bool fills_enough) {
+    const double agreement = double(overlap.num_foreground) / double(overlap.num_inside);
+    const double border = overlap.border_factor / double(overlap.num_foreground);
+    const double weight = inside_share * agreement * border;
+    Gain& gain = gains_[segment];
+    gain.alpha.resize(classes_.size());
+    gain.part_alpha.resize(classes_.size());
+    gain.is_seen_as.resize(classes_.size());
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      const double alpha = static_cast<double>(detection.class_scores[c]) * weight;
+      if (alpha <= 0 || !CanBe(segment, static_cast<int>(c))) continue;
+      gain.part_alpha[c] = std::max(gain.part_alpha[c], alpha);
+      if (!fills_enough) continue;
+      gain.alpha[c] = std::max(gain.alpha[c], alpha);
+      if (static_cast<int>(c) == detection.class_id) gain.is_seen_as[c] = true;
+    }
+  }
+
+  void AddBest(Evidence& evidence) {
+    for (const auto& [segment, gain] : gains_) {
+      SegmentEvidence& sums = evidence.segments[segment - 1];
+      for (std::size_t c = 0; c < classes_.size(); ++c) {
+        sums.alpha[c] += ToUnits(gain.alpha[c]);
+        sums.part_alpha[c] += ToUnits(gain.part_alpha[c]);
+        if (gain.is_seen_as[c]) ++sums.num_views[c];
+      }
+    }
+    std::sort(shared_.begin(), shared_.end());
+    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
+    for (const SegmentPair& pair : shared_) ++evidence.num_shared_boxes[pair];
+  }
+
+  void AddBackground(Evidence& evidence) const {
+    constexpr double kInNoBox = 0.2;  // Share of the segment inside the best box.
+    for (SegmentId segment = 1; segment < visibility_.size(); ++segment) {
+      if (largest_inside_share_[segment] >= kInNoBox) continue;
+      if (!IsSeen(segment, options_.min_visible_share_background)) continue;
+      evidence.segments[segment - 1].background += ToUnits(options_.background_weight);
+    }
+  }
+
+  const LabelledKeyframe& keyframe_;
+  const Segmentation& segmentation_;
+  const ClassTable& classes_;
+  const EvidenceOptions& options_;
+  SegmentImage image_;
+  std::vector<Visibility> visibility_;        // By segment id.
+  std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
+  std::map<SegmentId, Gain> gains_;
+  std::vector<SegmentPair> shared_;
+};
+
+}  // namespace
+
+void EvidenceOptions::Validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw InputError(std::string("evidence: ") + what);
+  };
+  const auto is_share = [](double value) { return value >= 0 && value <= 1; };
+  require(is_share(min_inside_share) && is_share(min_filled_share) && is_share(border_share) &&
+              is_share(border_weight) && is_share(min_visible_share) &&
+              is_share(min_visible_share_background),
+          "expected shares in [0, 1]");
+  require(core_share > 0 && core_share <= 1, "expected 0 < core_share <= 1");
+  require(max_depth_step > 0 && depth_step_at_1m >= 0, "expected max_depth_step > 0");
+  require(max_hole >= 0 && max_hole <= 100, "expected 0 <= max_hole <= 100");
+  require(background_weight >= 0, "expected background_weight >= 0");
+}
+
+Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
+                         const VoxelIndex& index,
+                         const Segmentation& segmentation,
+                         const ClassTable& classes,
+                         const EvidenceOptions& options) {
+  options.Validate();
+  Evidence evidence;
+  SegmentEvidence nothing;
+  nothing.alpha.assign(classes.size(), 0);
+  nothing.part_alpha.assign(classes.size(), 0);
+  nothing.num_views.assign(classes.size(), 0);
+  evidence.segments.assign(segmentation.segments.size(), nothing);
+  for (const LabelledKeyframe& keyframe : keyframes) {
+    SEMSLAM_CHECK(keyframe.cloud != nullptr);
+    LabelledKeyframe usable = keyframe;
+    usable.detections = Sanitise(std::move(usable.detections), classes.size(),
+                                 keyframe.cloud->image_width(), keyframe.cloud->image_height());
+    KeyframeJudge(usable, index, segmentation, classes, options).AddTo(evidence);
+  }
+  return evidence;
+}
+
+}  // namespace semslam

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semantics/label_segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace semslam {
+namespace {
+
+struct Best {
+  int class_id = kNoClass;
+  double confidence = 0;
+};
+
+// The class with the most evidence, kNoClass if that is the background, and its share of it all.
+// Ties go to the lower id.
+Best FindBest(const std::vector<std::int64_t>& alpha, std::int64_t background) {
+  std::int64_t sum = background;
+  std::int64_t most = background;
+  Best best;
+  for (std::size_t c = 0; c < alpha.size(); ++c) {
+    sum += alpha[c];
+    if (alpha[c] > most) {
+      most = alpha[c];
+      best.class_id = static_cast<int>(c);
+    }
+  }
+  if (sum > 0) best.confidence = static_cast<double>(most) / static_cast<double>(sum);
+  return best;
+}
+
+// Works on the segments' evidence; the parts of an object are kept as a forest.
+class Labeller {
+ public:
+  Labeller(const Evidence& evidence,
+           const MapCloud& cloud,
+           const Segmentation& segmentation,
+           const ClassTable& classes,
+           const FusionOptions& options)
+      : evidence_(evidence),
+        segmentation_(segmentation),
+        classes_(classes),
+        options_(options),
+        labels_(segmentation.segments.size()),
+        extents_(segmentation.segments.size()) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const SegmentId segment = segmentation.segment_of_point[i];
+      if (segment != 0) extents_[segment - 1].extend(cloud.positions[i]);
+    }
+  }
+
+  std::vector<SegmentLabel> Run() {
+    for (SegmentId segment = 1; segment <= labels_.size(); ++segment) LabelAlone(segment);
+    JoinParts();
+    TakePiecesAlong();
+    SumUpObjects();
+    return std::move(labels_);
+  }
+
+ private:
+  SegmentLabel& LabelOf(SegmentId segment) { return labels_[segment - 1]; }
+  const SegmentEvidence& EvidenceOf(SegmentId segment) const {
+    return evidence_.segments[segment - 1];
+  }
+
+  SegmentId Root(SegmentId segment) {
+    while (LabelOf(segment).object_root != segment) segment = LabelOf(segment).object_root;
+    return segment;
+  }
+
+  void LabelAlone(SegmentId segment) {
+    const SegmentEvidence& sums = EvidenceOf(segment);
+    SegmentLabel& label = LabelOf(segment);
+    label.object_root = segment;
+    const Best best = FindBest(sums.alpha, sums.background);
+    if (best.class_id == kNoClass || !classes_.is_of_interest(best.class_id)) return;
+    const std::uint32_t num_views = sums.num_views[static_cast<std::size_t>(best.class_id)];
+    if (best.confidence < options_.min_confidence || num_views == 0) return;
+    if (num_views < std::min(options_.min_views, sums.num_seen)) return;
+    label.class_id = best.class_id;
+  }
+
+  // Whether two segments were under one box in most of the keyframes in which boxes held them.
+  bool ShareBoxes(const SegmentPair& pair, std::uint32_t num_shared) const {
+    const std::uint32_t num_seen =
+        std::min(EvidenceOf(pair.first).num_seen, EvidenceOf(pair.second).num_seen);
+    return num_shared > 0 && num_shared >= options_.min_shared_share * num_seen;
+  }
+
+  bool LieTogether(SegmentId a, SegmentId b) const {
+    const auto& neighbours = segmentation_.segments[a - 1].neighbours;
+    if (std::binary_search(neighbours.begin(), neighbours.end(), b)) return true;
+    const auto gap = static_cast<double>(extents_[a - 1].exteriorDistance(extents_[b - 1]));
+    return gap <= options_.max_part_gap;
+  }
+
+  void Join(SegmentId a, SegmentId b) {
+    const SegmentId root_a = Root(a);
+    const SegmentId root_b = Root(b);
+    LabelOf(std::max(root_a, root_b)).object_root = std::min(root_a, root_b);
+  }
+
+  void JoinParts() {
+    for (const auto& [pair, num_shared] : evidence_.num_shared_boxes) {
+      const int class_id = LabelOf(pair.first).class_id;
+      if (class_id == kNoClass || class_id != LabelOf(pair.second).class_id) continue;
+      if (ShareBoxes(pair, num_shared) && LieTogether(pair.first, pair.second)) {
+        Join(pair.first, pair.second);
+      }
+    }
+  }
+
+  // Pieces too small to fill a box on their own. Decided against the labels of whole parts only, so
+  // that the order does not matter.
+  void TakePiecesAlong() {
+    struct Piece {
+      SegmentId segment, part;
+      std::uint32_t num_shared;
+    };
+    std::vector<Piece> pieces;
+    for (const auto& [pair, num_shared] : evidence_.num_shared_boxes) {
+      if (!ShareBoxes(pair, num_shared) || !LieTogether(pair.first, pair.second)) continue;
+      for (const auto& [piece, part] :
+           {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
+        if (IsPieceOf(piece, part)) pieces.push_back({piece, part, num_shared});
+      }
+    }
+    // Each piece to the part it was seen with most often; ties to the lower id.
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const Piece& a, const Piece& b) { return a.num_shared > b.num_shared; });
+    for (const Piece& piece : pieces) {
+      if (LabelOf(piece.segment).class_id != kNoClass) continue;
+      LabelOf(piece.segment).class_id = LabelOf(piece.part).class_id;
+      LabelOf(piece.segment).object_root = Root(piece.part);
+    }
+  }
+
+  bool IsPieceOf(SegmentId piece, SegmentId part) {
+    const int class_id = LabelOf(part).class_id;
+    if (class_id == kNoClass || LabelOf(piece).class_id != kNoClass) return false;
+    const SegmentEvidence& sums = EvidenceOf(piece);
+    const Best best = FindBest(sums.part_alpha, sums.background);
+    return best.class_id == class_id && best.confidence >= options_.min_confidence;
+  }
+
+  // Confidence and views of an object from all its parts.
+  void SumUpObjects() {
+    std::vector<std::int64_t> alpha(labels_.size() + 1, 0);
+    std::vector<std::int64_t> total(labels_.size() + 1, 0);
+    std::vector<std::uint32_t> num_views(labels_.size() + 1, 0);
+    for (SegmentId segment = 1; segment <= labels_.size(); ++segment) {
+      SegmentLabel& label = LabelOf(segment);
+      if (label.class_id == kNoClass) continue;
+      label.object_root = Root(segment);
+      const SegmentEvidence& sums = EvidenceOf(segment);
+      const auto c = static_cast<std::size_t>(label.class_id);
+      const SegmentId root = label.object_root;
+      alpha[root] += sums.part_alpha[c];
+      total[root] +=
+          std::accumulate(sums.part_alpha.begin(), sums.part_alpha.end(), sums.background);
+      num_views[root] = std::max(num_views[root], sums.num_views[c]);
+    }
+    for (SegmentLabel& label : labels_) {
+      if (label.class_id == kNoClass) continue;
+      const SegmentId root = label.object_root;
+      label.num_views = num_views[root];
+      label.confidence = static_cast<double>(alpha[root]) / static_cast<double>(total[root]);
+    }
+  }
+
+  const Evidence& evidence_;
+  const Segmentation& segmentation_;
+  const ClassTable& classes_;
+  const FusionOptions& options_;
+  std::vector<SegmentLabel> labels_;
+  std::vector<Eigen::AlignedBox3f> extents_;  // In world axes.
+};
+
+}  // namespace
+
+std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
+                                        const MapCloud& cloud,
+                                        const Segmentation& segmentation,
+                                        const ClassTable& classes,
+                                        const FusionOptions& options) {
+  return Labeller(evidence, cloud, segmentation, classes, options).Run();
+}
+
+}  // namespace semslam

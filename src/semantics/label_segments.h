@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "semslam/semantics/semantic_map.h"
+
+namespace semslam {
+
+struct SegmentLabel {
+  int class_id = kNoClass;
+  double confidence = 0;        // Of the whole object.
+  std::uint32_t num_views = 0;  // Of the whole object.
+  SegmentId object_root = 0;    // The same for all parts of an object; itself a part of it.
+};
+
+// The class of every segment (labels[i] belongs to segment i + 1): the one with the most evidence,
+// if it is of interest, beats the background and is seen often enough. Segments of one class that
+// keep being under one box and lie together become one object, and take small unlabelled pieces
+// between them along.
+std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
+                                        const MapCloud& cloud,
+                                        const Segmentation& segmentation,
+                                        const ClassTable& classes,
+                                        const FusionOptions& options);
+
+}  // namespace semslam

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "semslam/semantics/detection.h"
+
+namespace semslam {
+
+// Where an image lies inside a network's input when it is scaled to fit without distortion and
+// centred. Rounds down where Darknet does.
+struct Letterbox {
+  int image_width, image_height;    // Pixels of the image,
+  int input_width, input_height;    // of the network's input,
+  int fitted_width, fitted_height;  // and of the image scaled to fit.
+  int left, top;                    // Borders, pixels of the input.
+
+  static Letterbox Fit(int image_width, int image_height, int input_width, int input_height);
+
+  // A box given by centre and size relative to the network's input, in pixels of the image.
+  ImageBox ToImage(float centre_x, float centre_y, float width, float height) const;
+};
+
+// The 1 x 3 x height x width blob of an 8-bit BGR image: RGB in [0, 1], grey (0.5) borders.
+cv::Mat MakeBlob(const cv::Mat& image_bgr, const Letterbox& letterbox);
+
+}  // namespace semslam

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/semantics/semantic_map.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "semslam/base/check.h"
+#include "semslam/base/error.h"
+
+#include "semantics/label_segments.h"
+
+namespace semslam {
+namespace {
+
+// Segments with one root are parts of one object.
+std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
+                                        const MapCloud& cloud,
+                                        const Segmentation& segmentation) {
+  std::map<SegmentId, std::vector<SegmentId>> parts_of;  // By root.
+  for (SegmentId segment = 1; segment <= labels.size(); ++segment) {
+    const SegmentLabel& label = labels[segment - 1];
+    if (label.class_id != kNoClass) parts_of[label.object_root].push_back(segment);
+  }
+  std::map<SegmentId, std::vector<Eigen::Vector3d>> points_of;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const SegmentId segment = segmentation.segment_of_point[i];
+    if (segment == 0 || labels[segment - 1].class_id == kNoClass) continue;
+    points_of[labels[segment - 1].object_root].push_back(cloud.positions[i].cast<double>());
+  }
+  std::vector<SemanticObject> objects;
+  for (auto& [root, segments] : parts_of) {
+    const std::vector<Eigen::Vector3d>& points = points_of[root];
+    if (points.empty()) continue;
+    const SegmentLabel& label = labels[root - 1];
+    SemanticObject object;
+    object.class_id = label.class_id;
+    object.confidence = label.confidence;
+    object.num_views = label.num_views;
+    object.segments = std::move(segments);
+    object.num_points = points.size();
+    object.centroid =
+        std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
+        static_cast<double>(points.size());
+    object.box = FitOrientedBox(points);
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+// Gives objects the ids they had: nearest pairs of one class first.
+void TakeOverIds(const SemanticMap& previous,
+                 double max_object_shift,
+                 std::vector<SemanticObject>& objects) {
+  struct Match {
+    double distance;
+    ObjectId id;
+    std::size_t object;
+  };
+  std::vector<Match> matches;
+  for (const SemanticObject& before : previous.objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (objects[i].class_id != before.class_id) continue;
+      const double distance = (objects[i].centroid - before.centroid).norm();
+      const double reach = std::max(max_object_shift, before.box.half_size.maxCoeff());
+      if (distance <= reach) matches.push_back({distance, before.id, i});
+    }
+  }
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
+    return std::tie(a.distance, a.id, a.object) < std::tie(b.distance, b.id, b.object);
+  });
+  std::vector<ObjectId> taken;
+  for (const Match& match : matches) {
+    if (objects[match.object].id != 0) continue;
+    if (std::find(taken.begin(), taken.end(), match.id) != taken.end()) continue;
+    objects[match.object].id = match.id;
+    taken.push_back(match.id);
+  }
+}
+
+void NumberObjects(const SemanticMap* previous, double max_object_shift, SemanticMap& map) {
+  if (previous != nullptr) {
+    map.next_object_id = previous->next_object_id;
+    TakeOverIds(*previous, max_object_shift, map.objects);
+  }
+  for (SemanticObject& object : map.objects) {
+    if (object.id == 0) object.id = map.next_object_id++;
+  }
+  std::sort(map.objects.begin(), map.objects.end(),
+            [](const SemanticObject& a, const SemanticObject& b) { return a.id < b.id; });
+}
+
+void LabelPoints(const std::vector<SegmentLabel>& labels, SemanticMap& map) {
+  std::vector<ObjectId> object_of_segment(labels.size() + 1, 0);
+  for (const SemanticObject& object : map.objects) {
+    for (const SegmentId segment : object.segments) object_of_segment[segment] = object.id;
+  }
+  const std::size_t num_points = map.segment_of_point.size();
+  map.class_of_point.assign(num_points, kNoClass);
+  map.confidence_of_point.assign(num_points, 0.0F);
+  map.object_of_point.assign(num_points, 0);
+  for (std::size_t i = 0; i < num_points; ++i) {
+    const SegmentId segment = map.segment_of_point[i];
+    if (segment == 0 || labels[segment - 1].class_id == kNoClass) continue;
+    map.class_of_point[i] = labels[segment - 1].class_id;
+    map.confidence_of_point[i] = static_cast<float>(labels[segment - 1].confidence);
+    map.object_of_point[i] = object_of_segment[segment];
+  }
+}
+
+}  // namespace
+
+void FusionOptions::Validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw InputError(std::string("fusion: ") + what);
+  };
+  evidence.Validate();
+  require(min_confidence >= 0 && min_confidence <= 1, "expected min_confidence in [0, 1]");
+  require(min_shared_share > 0 && min_shared_share <= 1, "expected 0 < min_shared_share <= 1");
+  require(max_part_gap >= 0, "expected max_part_gap >= 0");
+  require(max_object_shift >= 0, "expected max_object_shift >= 0");
+}
+
+SemanticMap BuildSemanticMap(const MapCloud& cloud,
+                             const VoxelIndex& index,
+                             const Segmentation& segmentation,
+                             std::span<const LabelledKeyframe> keyframes,
+                             const ClassTable& classes,
+                             const FusionOptions& options,
+                             const SemanticMap* previous) {
+  options.Validate();
+  SEMSLAM_CHECK(segmentation.segment_of_point.size() == cloud.size())
+      << segmentation.segment_of_point.size() << " labels, " << cloud.size() << " points";
+  const Evidence evidence =
+      CollectEvidence(keyframes, index, segmentation, classes, options.evidence);
+  const std::vector<SegmentLabel> labels =
+      LabelSegments(evidence, cloud, segmentation, classes, options);
+  SemanticMap map;
+  map.classes = classes;
+  map.segment_of_point = segmentation.segment_of_point;
+  map.objects = MakeObjects(labels, cloud, segmentation);
+  NumberObjects(previous, options.max_object_shift, map);
+  LabelPoints(labels, map);
+  return map;
+}
+
+}  // namespace semslam

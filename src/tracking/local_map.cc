@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/tracking/local_map.h"
+
+#include <algorithm>
+#include <map>
+
+namespace semslam {
+namespace {
+
+constexpr std::size_t kMaxKeyframes = 80;
+constexpr std::size_t kNumNeighbours = 10;  // Looked at for each keyframe, to add one.
+
+// How many of the frame's landmarks each keyframe sees.
+std::map<KeyframeId, int> CountVotes(const Map& map, const TrackedFrame& frame) {
+  std::map<KeyframeId, int> votes;
+  for (const std::optional<TrackedPoint>& point : frame.points) {
+    if (!point || !point->landmark) continue;
+    const Landmark* landmark = map.FindLandmark(*point->landmark);
+    if (landmark == nullptr) continue;
+    for (const Observation& observation : landmark->observations) ++votes[observation.keyframe];
+  }
+  return votes;
+}
+
+// Adds, for each keyframe that got votes, its best neighbour not yet among them, and its parent.
+std::vector<KeyframeId> WithNeighbours(const Map& map, const std::map<KeyframeId, int>& votes) {
+  std::vector<KeyframeId> chosen;
+  for (const auto& [id, count] : votes) chosen.push_back(id);
+  const auto contains = [&](KeyframeId id) {
+    return std::find(chosen.begin(), chosen.end(), id) != chosen.end();
+  };
+  for (std::size_t i = 0; i < votes.size() && chosen.size() < kMaxKeyframes; ++i) {
+    const KeyframeId id = chosen[i];
+    for (const KeyframeId neighbour : map.CovisibleKeyframes(id, 1, kNumNeighbours)) {
+      if (contains(neighbour)) continue;
+      chosen.push_back(neighbour);
+      break;
+    }
+    const std::optional<KeyframeId> parent = map.keyframe(id).parent;
+    if (parent && !contains(*parent)) chosen.push_back(*parent);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+std::vector<LocalMap::Entry> CopyLandmarks(const Map& map,
+                                           const std::vector<KeyframeId>& keyframes) {
+  std::vector<LandmarkId> ids;
+  for (const KeyframeId keyframe : keyframes) {
+    for (const std::optional<LandmarkId> id : map.keyframe(keyframe).landmarks) {
+      if (id) ids.push_back(*id);
+    }
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::vector<LocalMap::Entry> entries;
+  entries.reserve(ids.size());
+  for (const LandmarkId id : ids) entries.push_back({id, map.landmark(id).appearance});
+  return entries;
+}
+
+}  // namespace
+
+bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
+  return shared_map.Read([&](const Map& map) {
+    const std::map<KeyframeId, int> votes = CountVotes(map, frame);
+    if (votes.empty()) return false;
+    reference_ = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+                   return a.second < b.second;
+                 })->first;
+    std::vector<KeyframeId> keyframes = WithNeighbours(map, votes);
+    if (version_ == map.version() && keyframes == keyframes_) return true;
+    landmarks_ = CopyLandmarks(map, keyframes);
+    keyframes_ = std::move(keyframes);
+    version_ = map.version();
+    return true;
+  });
+}
+
+}  // namespace semslam

@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/tracking/tracking.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "semslam/base/check.h"
+#include "semslam/place/word_matcher.h"
+
+#include "tracking/frame_matching.h"
+#include "tracking/new_points.h"
+
+namespace semslam {
+namespace {
+
+// A frame at the given pose that shows nothing yet.
+TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera) {
+  TrackedFrame tracked;
+  tracked.points.resize(frame->keypoints.size());
+  tracked.frame = std::move(frame);
+  tracked.T_world_camera = T_world_camera;
+  return tracked;
+}
+
+}  // namespace
+
+void Tracking::Options::Validate() const {
+  SEMSLAM_CHECK(close_depth_m > 0) << close_depth_m;
+  SEMSLAM_CHECK(search_radius_px > 0) << search_radius_px;
+  SEMSLAM_CHECK(min_inliers > 0 && min_pose_inliers > 0) << min_inliers << ", " << min_pose_inliers;
+  keyframes.Validate();
+}
+
+Tracking::Tracking(const Options& options,
+                   const PinholeCamera& camera,
+                   double baseline_times_fx,
+                   std::shared_ptr<const Vocabulary> vocabulary,
+                   SharedMap& map)
+    : options_(options),
+      camera_(camera),
+      stereo_{camera.fx(), camera.fy(), camera.cx(), camera.cy(), baseline_times_fx},
+      vocabulary_(std::move(vocabulary)),
+      map_(map),
+      scale_space_(map.Read([](const Map& m) { return m.scale_space(); })),
+      keyframe_policy_(options.keyframes) {
+  options_.Validate();
+  SEMSLAM_CHECK(vocabulary_ != nullptr);
+}
+
+Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper) {
+  SEMSLAM_CHECK(frame != nullptr);
+  if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
+  BringLastFrameUpToDate();
+  std::optional<TrackedFrame> current =
+      state_ == TrackingState::kTracking ? PredictAndMatch(frame) : FindAgain(frame);
+  if (!current) return Fail(std::move(frame));
+  const int num_inliers = TrackLocalMap(&*current);
+  const bool was_lost_lately = state_ == TrackingState::kLost ||
+                               num_frames_since_found_ < options_.keyframes.max_frames_between;
+  if (num_inliers < (was_lost_lately ? options_.min_inliers_after_loss : options_.min_inliers)) {
+    return Fail(std::move(frame));
+  }
+  return Succeed(*std::move(current), num_inliers, mapper);
+}
+
+Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
+  Result result;
+  if (static_cast<int>(frame->keypoints.size()) <= options_.min_features_to_start) return result;
+  TrackedFrame first = EmptyFrame(std::move(frame), Rigid3());
+  const NewPointOptions all_points{.close_depth_m = std::numeric_limits<double>::infinity(),
+                                   .min_count = 0};
+  const KeyframeId id = map_.Write([&](Map& map) {
+    const KeyframeId keyframe = map.AddKeyframe(first.frame, first.T_world_camera);
+    for (const int feature : FeaturesForNewPoints(first, all_points)) {
+      const Eigen::Vector3d p_world = BackProject(camera_, first, feature);
+      const LandmarkId landmark = map.AddLandmark(p_world, {keyframe, feature});
+      first.points[feature] = TrackedPoint{landmark, p_world};
+    }
+    return keyframe;
+  });
+  state_ = TrackingState::kTracking;
+  num_frames_since_keyframe_ = 0;
+  last_reference_ = id;
+  T_reference_last_ = Rigid3();
+  T_last_next_.reset();
+  num_frames_since_found_ = options_.keyframes.max_frames_between;
+  result.state = state_;
+  result.reference_keyframe = id;
+  result.num_inliers = first.NumLandmarks();
+  result.new_keyframe = id;
+  last_ = std::move(first);
+  return result;
+}
+
+// The map may have moved since the last frame was tracked: its pose follows its reference keyframe,
+// and its landmarks may have moved, merged or vanished.
+void Tracking::BringLastFrameUpToDate() {
+  map_.Read([&](const Map& map) {
+    if (const std::optional<Rigid3> T_world_reference = map.ResolvePose(last_reference_)) {
+      last_.T_world_camera = *T_world_reference * T_reference_last_;
+    }
+    for (std::optional<TrackedPoint>& point : last_.points) {
+      if (!point || !point->landmark) continue;
+      point->landmark = map.ResolveLandmark(*point->landmark);
+      if (point->landmark) {
+        point->p_world = map.landmark(*point->landmark).appearance.p_world;
+      } else {
+        point.reset();
+      }
+    }
+  });
+}
+
+std::optional<TrackedFrame> Tracking::PredictAndMatch(const std::shared_ptr<const Frame>& frame) {
+  // The last frame's depth helps as temporary points: between two keyframes much of the view has no
+  // landmark yet.
+  const NewPointOptions close_points{.close_depth_m = options_.close_depth_m,
+                                     .min_count = options_.min_close_points};
+  for (const int feature : FeaturesForNewPoints(last_, close_points)) {
+    last_.points[feature] = TrackedPoint{std::nullopt, BackProject(camera_, last_, feature)};
+  }
+  if (T_last_next_) {
+    if (std::optional<TrackedFrame> tracked = TrackWithMotion(frame)) return tracked;
+  }
+  return TrackKeyframe(frame, last_reference_);
+}
+
+std::optional<TrackedFrame> Tracking::TrackWithMotion(
+    const std::shared_ptr<const Frame>& frame) const {
+  const TrackedFrame predicted = EmptyFrame(frame, last_.T_world_camera * *T_last_next_);
+  const ProjectionCamera camera{camera_, stereo_.bf, scale_space_};
+  const auto count = [](const TrackedFrame& f) {
+    return std::count_if(f.points.begin(), f.points.end(),
+                         [](const auto& p) { return p.has_value(); });
+  };
+  TrackedFrame matched = MatchLastFrame(last_, predicted, camera, options_.search_radius_px);
+  if (count(matched) < options_.min_motion_matches) {
+    matched = MatchLastFrame(last_, predicted, camera, 2 * options_.search_radius_px);
+  }
+  if (count(matched) < options_.min_motion_matches) return std::nullopt;
+  OptimizeAndDropOutliers(stereo_, scale_space_, &matched);
+  for (std::optional<TrackedPoint>& point : matched.points) {
+    if (point && !point->landmark) point.reset();  // Temporary points have done their duty.
+  }
+  if (matched.NumLandmarks() < options_.min_pose_inliers) return std::nullopt;
+  return matched;
+}
+
+std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const Frame>& frame,
+                                                    KeyframeId keyframe_id) const {
+  struct Reference {
+    std::shared_ptr<const Frame> frame;
+    std::shared_ptr<const BagOfWords> words;
+    Rigid3 T_world_camera;
+    std::vector<std::optional<TrackedPoint>> points;
+  };
+  const std::optional<Reference> reference =
+      map_.Read([&](const Map& map) -> std::optional<Reference> {
+        const Keyframe* keyframe = map.FindKeyframe(keyframe_id);
+        if (keyframe == nullptr) return std::nullopt;
+        Reference copy{keyframe->frame, keyframe->words, keyframe->T_world_camera, {}};
+        copy.points.resize(keyframe->landmarks.size());
+        for (std::size_t i = 0; i < copy.points.size(); ++i) {
+          if (const std::optional<LandmarkId> id = keyframe->landmarks[i]) {
+            copy.points[i] = TrackedPoint{id, map.landmark(*id).appearance.p_world};
+          }
+        }
+        return copy;
+      });
+  if (!reference) return std::nullopt;
+
+  std::vector<std::uint8_t> has_landmark(reference->points.size(), 0);
+  for (std::size_t i = 0; i < has_landmark.size(); ++i)
+    has_landmark[i] = reference->points[i] ? 1 : 0;
+  const BagOfWords reference_words =
+      reference->words ? *reference->words : vocabulary_->Transform(reference->frame->descriptors);
+  const BagOfWords words = vocabulary_->Transform(frame->descriptors);
+  const std::vector<FeatureMatch> matches =
+      MatchByWords({*reference->frame, reference_words, has_landmark}, {*frame, words, {}}, {});
+  if (static_cast<int>(matches.size()) < options_.min_reference_matches) return std::nullopt;
+
+  const bool is_lost = state_ == TrackingState::kLost;
+  TrackedFrame matched =
+      EmptyFrame(frame, is_lost ? reference->T_world_camera : last_.T_world_camera);
+  for (const FeatureMatch& match : matches)
+    matched.points[match.feature] = reference->points[match.query];
+  OptimizeAndDropOutliers(stereo_, scale_space_, &matched);
+  if (matched.NumLandmarks() < options_.min_pose_inliers) return std::nullopt;
+  return matched;
+}
+
+// After a loss: as if the camera were near where it was lost.
+std::optional<TrackedFrame> Tracking::FindAgain(const std::shared_ptr<const Frame>& frame) const {
+  constexpr std::size_t kNumCandidates = 4;
+  std::vector<KeyframeId> candidates = map_.Read([&](const Map& map) {
+    std::vector<KeyframeId> ids;
+    if (map.FindKeyframe(last_reference_) != nullptr) {
+      ids = map.CovisibleKeyframes(last_reference_, 1, kNumCandidates);
+      ids.insert(ids.begin(), last_reference_);
+    }
+    return ids;
+  });
+  std::optional<TrackedFrame> best;
+  for (const KeyframeId candidate : candidates) {
+    std::optional<TrackedFrame> tracked = TrackKeyframe(frame, candidate);
+    if (tracked && (!best || tracked->NumLandmarks() > best->NumLandmarks()))
+      best = std::move(tracked);
+  }
+  return best;
+}
+
+int Tracking::TrackLocalMap(TrackedFrame* current) {
+  if (!local_map_.Update(map_, *current)) return 0;
+  const std::vector<LocalMap::Entry>& local = local_map_.landmarks();
+  std::vector<std::uint8_t> is_taken(current->points.size(), 0);
+  std::vector<LandmarkId> matched_ids;
+  for (std::size_t i = 0; i < current->points.size(); ++i) {
+    if (!current->points[i]) continue;
+    is_taken[i] = 1;
+    matched_ids.push_back(*current->points[i]->landmark);
+    ++sightings_[matched_ids.back()].num_visible;
+  }
+  std::sort(matched_ids.begin(), matched_ids.end());
+
+  const bool was_lost_lately = num_frames_since_found_ < 2;
+  const float radius_factor = was_lost_lately ? 5.0F : 3.0F;
+  std::vector<VisibleLandmark> visible =
+      FindVisible(local, *current, {camera_, stereo_.bf, scale_space_}, radius_factor);
+  std::erase_if(visible, [&](const VisibleLandmark& v) {
+    return std::binary_search(matched_ids.begin(), matched_ids.end(), local[v.entry].id);
+  });
+  std::vector<ProjectedPoint> projections;
+  for (const VisibleLandmark& v : visible) {
+    ++sightings_[local[v.entry].id].num_visible;
+    projections.push_back(v.projection);
+  }
+  for (const FeatureMatch& match :
+       MatchProjectedPoints(projections, *current->frame, is_taken, {.max_ratio = 0.8F})) {
+    const LocalMap::Entry& entry = local[visible[match.query].entry];
+    current->points[match.feature] = TrackedPoint{entry.id, entry.appearance.p_world};
+  }
+  const int num_inliers = OptimizeAndDropOutliers(stereo_, scale_space_, current);
+  for (const std::optional<TrackedPoint>& point : current->points) {
+    if (point) ++sightings_[*point->landmark].num_found;
+  }
+  return num_inliers;
+}
+
+}  // namespace semslam

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What Tracking does once a frame's pose is known, or is not to be had.
+#include <algorithm>
+#include <utility>
+
+#include "semslam/tracking/tracking.h"
+
+#include "tracking/new_points.h"
+
+namespace semslam {
+
+Tracking::Result Tracking::Succeed(TrackedFrame current,
+                                   int num_inliers,
+                                   const MapperLoad& mapper) {
+  if (state_ == TrackingState::kLost) {
+    num_frames_since_found_ = 0;
+    T_last_next_.reset();
+  } else {
+    ++num_frames_since_found_;
+    T_last_next_ = last_.T_world_camera.Inverse() * current.T_world_camera;
+  }
+  state_ = TrackingState::kTracking;
+  ++num_frames_since_keyframe_;
+  KeyframeId reference = local_map_.reference_keyframe();
+
+  Result result;
+  if (keyframe_policy_.WantsKeyframe(Assess(current, num_inliers, reference, mapper))) {
+    reference = InsertKeyframe(&current);
+    result.new_keyframe = reference;
+    num_frames_since_keyframe_ = 0;
+  }
+  const std::optional<Rigid3> T_world_reference =
+      map_.Read([&](const Map& map) { return map.ResolvePose(reference); });
+  last_ = std::move(current);
+  last_reference_ = reference;
+  T_reference_last_ = T_world_reference.value_or(Rigid3()).Inverse() * last_.T_world_camera;
+
+  result.state = state_;
+  result.T_world_camera = last_.T_world_camera;
+  result.reference_keyframe = last_reference_;
+  result.T_reference_camera = T_reference_last_;
+  result.num_inliers = num_inliers;
+  return result;
+}
+
+KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
+                                           int num_inliers,
+                                           KeyframeId reference,
+                                           const MapperLoad& mapper) const {
+  KeyframePolicy::Situation now;
+  now.num_frames_since_keyframe = num_frames_since_keyframe_;
+  now.num_inliers = num_inliers;
+  now.mapper = mapper;
+  for (std::size_t i = 0; i < current.points.size(); ++i) {
+    const float depth = current.frame->keypoints[i].depth;
+    if (depth <= 0 || depth > options_.close_depth_m) continue;
+    ++(current.points[i] ? now.num_close_tracked : now.num_close_untracked);
+  }
+  map_.Read([&](const Map& map) {
+    now.num_keyframes = static_cast<int>(map.num_keyframes());
+    const int min_measurements = now.num_keyframes <= 2 ? 2 : 3;
+    if (map.FindKeyframe(reference) != nullptr) {
+      now.num_reference_landmarks = map.NumTrackedLandmarks(reference, min_measurements);
+    }
+  });
+  return now;
+}
+
+KeyframeId Tracking::InsertKeyframe(TrackedFrame* current) {
+  const NewPointOptions close_points{.close_depth_m = options_.close_depth_m,
+                                     .min_count = options_.min_close_points};
+  return map_.Write([&](Map& map) {
+    ApplySightings(map);
+    const KeyframeId id = map.AddKeyframe(current->frame, current->T_world_camera);
+    for (std::size_t feature = 0; feature < current->points.size(); ++feature) {
+      std::optional<TrackedPoint>& point = current->points[feature];
+      if (!point) continue;
+      point->landmark = map.ResolveLandmark(*point->landmark);
+      // Two features may show landmarks that were merged meanwhile.
+      if (!point->landmark || map.Sees(id, *point->landmark)) {
+        point.reset();
+      } else {
+        map.AddObservation(*point->landmark, {id, static_cast<int>(feature)});
+      }
+    }
+    for (const int feature : FeaturesForNewPoints(*current, close_points)) {
+      const Eigen::Vector3d p_world = BackProject(camera_, *current, feature);
+      current->points[feature] = TrackedPoint{map.AddLandmark(p_world, {id, feature}), p_world};
+    }
+    map.ChooseParent(id);
+    return id;
+  });
+}
+
+void Tracking::ApplySightings(Map& map) {
+  for (const auto& [id, sightings] : sightings_) {  // Sums: the order does not matter.
+    if (const std::optional<LandmarkId> landmark = map.ResolveLandmark(id)) {
+      map.CountSightings(*landmark, sightings.num_visible, sightings.num_found);
+    }
+  }
+  sightings_.clear();
+}
+
+Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
+  T_last_next_.reset();
+  sightings_.clear();
+  state_ = TrackingState::kLost;
+  Result result;
+  result.state = state_;
+  const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
+  if (num_keyframes > options_.min_keyframes_to_keep) return result;
+  // So little was mapped that a fresh start is better; this frame may serve as the first.
+  map_.Write([](Map& map) { map.Clear(); });
+  state_ = TrackingState::kNotInitialized;
+  result = Initialize(std::move(frame));
+  result.map_was_reset = true;
+  return result;
+}
+
+}  // namespace semslam

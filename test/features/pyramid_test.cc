@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "features/pyramid.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "features/test_images.h"
+
+namespace semslam {
+namespace {
+
+TEST(Shrink, SamplesTheSourceAtScaledPositions) {
+  // Of a plane of grey values, interpolation is exact; but for the rounding of weights and result.
+  cv::Mat source(480, 640, CV_8UC1);
+  const auto plane = [](double x, double y) { return 10 + 0.2 * x + 0.2 * y; };
+  for (int y = 0; y < source.rows; ++y) {
+    for (int x = 0; x < source.cols; ++x) {
+      source.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(std::lround(plane(x, y)));
+    }
+  }
+  const cv::Mat level = Shrink(source, LevelSize(source.size(), 1.2F), 1.2);
+  ASSERT_EQ(level.size(), cv::Size(533, 400));
+  for (int y = 0; y < level.rows; ++y) {
+    for (int x = 0; x < level.cols; ++x) {
+      ASSERT_NEAR(level.at<std::uint8_t>(y, x), plane(1.2 * x, 1.2 * y), 1.01) << x << " " << y;
+    }
+  }
+}
+
+TEST(Shrink, KeepsAWhiteImageWhite) {
+  const cv::Mat white(101, 77, CV_8UC1, cv::Scalar(255));
+  const cv::Mat level = Shrink(white, LevelSize(white.size(), 1.7F), 1.7);
+  EXPECT_EQ(cv::countNonZero(level != 255), 0);
+}
+
+// One pixel in double precision, borders mirrored.
+double GaussianAt(const cv::Mat& image, int x, int y) {
+  double sum = 0;
+  double weights = 0;
+  for (int v = -3; v <= 3; ++v) {
+    for (int u = -3; u <= 3; ++u) {
+      const double weight = std::exp(-(u * u + v * v) / 8.0);
+      sum += weight * image.at<std::uint8_t>(
+                          cv::borderInterpolate(y + v, image.rows, cv::BORDER_REFLECT_101),
+                          cv::borderInterpolate(x + u, image.cols, cv::BORDER_REFLECT_101));
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+TEST(BlurForBrief, RoundsTheGaussianToTheNearest) {
+  constexpr double kTie = 0.5 + 1e-4;  // Single precision may round the wrong way at a tie.
+  for (const cv::Size size : {cv::Size(320, 240), cv::Size(179, 134), cv::Size(5, 4)}) {
+    const cv::Mat image = MakeTexture(size.width, size.height, 3);
+    const cv::Mat blurred = BlurForBrief(image);
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        ASSERT_NEAR(blurred.at<std::uint8_t>(y, x), GaussianAt(image, x, y), kTie) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(BlurForBrief, KeepsBlackAndWhite) {
+  for (const int grey : {0, 255}) {
+    const cv::Mat image(50, 60, CV_8UC1, cv::Scalar(grey));
+    EXPECT_EQ(cv::countNonZero(BlurForBrief(image) != grey), 0) << grey;
+  }
+}
+
+}  // namespace
+}  // namespace semslam

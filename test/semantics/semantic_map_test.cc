@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semslam/semantics/semantic_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "semslam/dense/voxel_map.h"
+
+#include "dense/synthetic_depth.h"
+
+namespace semslam {
+namespace {
+
+using testing::Box;
+using testing::RenderBoxes;
+using testing::TestCamera;
+
+constexpr int kCup = 0;
+constexpr int kMonitor = 1;
+constexpr int kLaptop = 2;
+constexpr int kTable = 3;
+
+ClassTable Classes() { return ClassTable({"cup", "tvmonitor", "laptop", "dining table"}); }
+
+// A desk before a wall, things on the desk, seen by keyframes from slightly different places. The
+// segments are known from the geometry: 1 wall, 2 desk, 3.. the things.
+class Desk {
+ public:
+  explicit Desk(const std::vector<Box>& things) : boxes_(things) {
+    boxes_.insert(boxes_.begin(), {{-3, 0.3, 0.5}, {3, 0.35, 2.0}});
+    boxes_.insert(boxes_.begin(), {{-3, -3, 2.0}, {3, 3, 2.1}});
+  }
+
+  void AddKeyframe(const Rigid3& T_world_camera, std::vector<Detection> detections) {
+    const auto rays = std::make_shared<const RayTable>(TestCamera());
+    const KeyframeId id{static_cast<std::uint32_t>(keyframes_.size())};
+    const auto cloud =
+        BuildKeyframeCloud(id, RenderBoxes(boxes_, TestCamera(), T_world_camera), rays, {});
+    keyframes_.push_back({cloud, T_world_camera, std::move(detections)});
+  }
+
+  // The rectangle around a thing (3..) in a keyframe at a pose, `margin` pixels larger.
+  ImageBox BoxAround(SegmentId thing, const Rigid3& T_world_camera, float margin) const {
+    ImageBox box{1e9F, 1e9F, -1e9F, -1e9F};
+    const Box& solid = boxes_[thing - 1];
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d p_world((corner & 1) != 0 ? solid.low.x() : solid.high.x(),
+                                    (corner & 2) != 0 ? solid.low.y() : solid.high.y(),
+                                    (corner & 4) != 0 ? solid.low.z() : solid.high.z());
+      const Eigen::Vector2f pixel =
+          TestCamera().Project(T_world_camera.Inverse() * p_world).cast<float>();
+      box = {std::min(box.min_x, pixel.x() - margin), std::min(box.min_y, pixel.y() - margin),
+             std::max(box.max_x, pixel.x() + margin), std::max(box.max_y, pixel.y() + margin)};
+    }
+    return box;
+  }
+
+  // Segments can be given other numbers: merge_into[i] for segment i + 1.
+  SemanticMap Fuse(const FusionOptions& options = {}, const SemanticMap* previous = nullptr) {
+    VoxelMap voxels({});
+    for (const LabelledKeyframe& keyframe : keyframes_) {
+      voxels.Integrate(keyframe.cloud, keyframe.T_world_camera);
+    }
+    cloud_ = voxels.Extract();
+    const VoxelIndex index(cloud_.positions, cloud_.voxel_size);
+    return BuildSemanticMap(cloud_, index, SegmentByGeometry(), keyframes_, Classes(), options,
+                            previous);
+  }
+
+  std::set<int> ClassesOf(const SemanticMap& map, SegmentId segment) const {
+    std::set<int> classes;
+    for (std::size_t i = 0; i < map.segment_of_point.size(); ++i) {
+      if (map.segment_of_point[i] == segment) classes.insert(map.class_of_point[i]);
+    }
+    return classes;
+  }
+
+  std::vector<LabelledKeyframe>& keyframes() { return keyframes_; }
+  const std::vector<Box>& boxes() const { return boxes_; }
+
+ private:
+  SegmentId SegmentAt(const Eigen::Vector3d& p_world) const {
+    for (std::size_t i = boxes_.size(); i-- > 0;) {
+      const Eigen::Vector3d outside = (boxes_[i].low - p_world).cwiseMax(p_world - boxes_[i].high);
+      if (outside.maxCoeff() < 0.006) return static_cast<SegmentId>(i + 1);
+    }
+    return 0;
+  }
+
+  Segmentation SegmentByGeometry() const {
+    Segmentation segmentation;
+    std::vector<std::vector<Eigen::Vector3d>> points(boxes_.size());
+    for (const Eigen::Vector3f& position : cloud_.positions) {
+      const SegmentId segment = SegmentAt(position.cast<double>());
+      segmentation.segment_of_point.push_back(segment);
+      if (segment != 0) points[segment - 1].push_back(position.cast<double>());
+    }
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      Segment segment;
+      segment.id = static_cast<SegmentId>(i + 1);
+      segment.num_points = points[i].size();
+      segment.box = FitOrientedBox(points[i]);
+      segment.area = static_cast<double>(points[i].size()) * 0.008 * 0.008;
+      segment.is_structural = i < 2;
+      segmentation.segments.push_back(segment);
+    }
+    return segmentation;
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<LabelledKeyframe> keyframes_;
+  MapCloud cloud_;
+};
+
+Rigid3 ViewFrom(int number) {
+  return {ExpSO3({0.15, -0.03 * number, 0}), {0.04 * number, -0.15, 0}};
+}
+
+const Box kCupBox{{-0.1, 0.1, 1.0}, {0.1, 0.3, 1.2}};
+
+Detection Seen(int class_id, float score, const ImageBox& box) {
+  Detection detection{class_id, score, box, std::vector<float>(4, 0.0F)};
+  detection.class_scores[static_cast<std::size_t>(class_id)] = score;
+  return detection;
+}
+
+TEST(BuildSemanticMap, LabelsOnlyTheThingAndNotWhatElseIsInTheBox) {
+  Desk desk({kCupBox});
+  for (int i = 0; i < 4; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.7F, desk.BoxAround(3, ViewFrom(i), 15))});
+  }
+  const SemanticMap map = desk.Fuse();
+  EXPECT_EQ(desk.ClassesOf(map, 1), std::set<int>{kNoClass});
+  EXPECT_EQ(desk.ClassesOf(map, 2), std::set<int>{kNoClass});
+  EXPECT_EQ(desk.ClassesOf(map, 3), std::set<int>{kCup});
+  ASSERT_EQ(map.objects.size(), 1U);
+  const SemanticObject& cup = map.objects[0];
+  EXPECT_EQ(cup.class_id, kCup);
+  EXPECT_EQ(cup.num_views, 4U);
+  EXPECT_EQ(cup.id, 1U);
+  EXPECT_GT(cup.confidence, 0.9);
+  // Only the sides that were seen have points.
+  EXPECT_LT((cup.centroid - Eigen::Vector3d(0, 0.2, 1.1)).cwiseAbs().maxCoeff(), 0.11);
+  EXPECT_EQ(static_cast<std::size_t>(
+                std::count(map.object_of_point.begin(), map.object_of_point.end(), cup.id)),
+            cup.num_points);
+}
+
+TEST(BuildSemanticMap, NeverGivesTheDeskTheClassOfAThing) {
+  Desk desk({});
+  for (int i = 0; i < 4; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.9F, {0, 0, 320, 240}),
+                                   Seen(kMonitor, 0.9F, {0, 120, 320, 240})});
+  }
+  EXPECT_TRUE(desk.Fuse().objects.empty());
+}
+
+TEST(BuildSemanticMap, LetsALargePlaneBeATable) {
+  Desk desk({});
+  for (int i = 0; i < 4; ++i) {
+    // Straight down on a part of the desk that is small enough.
+    const Rigid3 pose{ExpSO3({-1.5708, 0, 0}) * ExpSO3({0, 0, 0.1 * i}), {0, -0.9, 1.3}};
+    desk.AddKeyframe(pose, {Seen(kTable, 0.9F, {0, 0, 320, 240})});
+  }
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].class_id, kTable);
+}
+
+TEST(BuildSemanticMap, LeavesOutAThingBehindTheObjectInTheSameBox) {
+  // The second thing looks out on both sides of the first, 40 cm behind it.
+  Desk desk({kCupBox, {{-0.19, 0.1, 1.6}, {0.19, 0.28, 1.7}}});
+  for (int i = 0; i < 4; ++i) {
+    const Rigid3 pose = ViewFrom(0);
+    desk.AddKeyframe(pose, {Seen(kMonitor, 0.7F, desk.BoxAround(3, pose, 12))});
+  }
+  const SemanticMap map = desk.Fuse();
+  EXPECT_EQ(desk.ClassesOf(map, 3), std::set<int>{kMonitor});
+  EXPECT_EQ(desk.ClassesOf(map, 4), std::set<int>{kNoClass});
+}
+
+TEST(BuildSemanticMap, RefusesSegmentsLargerThanTheClass) {
+  Desk desk({{{-0.3, -0.1, 1.2}, {0.3, 0.3, 1.3}}});  // 60 cm.
+  for (int i = 0; i < 3; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.9F, desk.BoxAround(3, ViewFrom(i), 5))});
+  }
+  EXPECT_TRUE(desk.Fuse().objects.empty());
+}
+
+TEST(BuildSemanticMap, CountsViewsWithoutADetectionAgainstAThing) {
+  const auto fuse = [](int num_detected) {
+    Desk desk({kCupBox});
+    for (int i = 0; i < 8; ++i) {
+      std::vector<Detection> detections;
+      if (i < num_detected) {
+        detections.push_back(Seen(kCup, 0.4F, desk.BoxAround(3, ViewFrom(i % 4), 8)));
+      }
+      desk.AddKeyframe(ViewFrom(i % 4), detections);
+    }
+    return desk.Fuse();
+  };
+  EXPECT_EQ(fuse(2).objects.size(), 0U);
+  EXPECT_EQ(fuse(7).objects.size(), 1U);
+}
+
+TEST(BuildSemanticMap, NeedsTwoViewsOfWhatManySaw) {
+  Desk desk({kCupBox});
+  desk.AddKeyframe(ViewFrom(0), {Seen(kCup, 1.0F, desk.BoxAround(3, ViewFrom(0), 8))});
+  desk.AddKeyframe(ViewFrom(1), {});
+  EXPECT_TRUE(desk.Fuse().objects.empty());
+}
+
+TEST(BuildSemanticMap, AveragesTheDistributionOfConfusedClasses) {
+  Desk desk({{{-0.2, 0.0, 1.2}, {0.2, 0.3, 1.25}}});
+  for (int i = 0; i < 4; ++i) {
+    // The laptop is first more often, the monitor has more evidence.
+    Detection detection = Seen(kLaptop, 0.5F, desk.BoxAround(3, ViewFrom(i), 6));
+    detection.class_scores[kMonitor] = 0.45F;
+    if (i == 3) detection = Seen(kMonitor, 0.9F, detection.box);
+    if (i == 2) detection.class_id = kMonitor;
+    desk.AddKeyframe(ViewFrom(i), {detection});
+  }
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].class_id, kMonitor);
+  EXPECT_LT(map.objects[0].confidence, 0.7);
+}
+
+TEST(BuildSemanticMap, JoinsTheHalvesOfAnOverSegmentedThing) {
+  Desk desk({{{-0.2, 0.0, 1.2}, {0.0, 0.3, 1.3}}, {{0.0, 0.0, 1.2}, {0.2, 0.3, 1.3}}});
+  for (int i = 0; i < 3; ++i) {
+    const ImageBox left = desk.BoxAround(3, ViewFrom(i), 6);
+    const ImageBox right = desk.BoxAround(4, ViewFrom(i), 6);
+    const ImageBox both{left.min_x, std::min(left.min_y, right.min_y), right.max_x,
+                        std::max(left.max_y, right.max_y)};
+    desk.AddKeyframe(ViewFrom(i), {Seen(kMonitor, 0.8F, both)});
+  }
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].segments, (std::vector<SegmentId>{3, 4}));
+}
+
+TEST(BuildSemanticMap, KeepsTwoThingsOfOneClassApart) {
+  Desk desk({{{-0.22, 0.0, 1.2}, {-0.01, 0.3, 1.3}}, {{0.01, 0.0, 1.2}, {0.22, 0.3, 1.3}}});
+  for (int i = 0; i < 3; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kMonitor, 0.8F, desk.BoxAround(3, ViewFrom(i), 3)),
+                                   Seen(kMonitor, 0.8F, desk.BoxAround(4, ViewFrom(i), 3))});
+  }
+  EXPECT_EQ(desk.Fuse().objects.size(), 2U);
+}
+
+TEST(BuildSemanticMap, DoesNotDependOnTheOrderOfKeyframes) {
+  Desk desk({kCupBox, {{0.3, 0.0, 1.2}, {0.6, 0.3, 1.3}}});
+  for (int i = 0; i < 4; ++i) {
+    Detection confused =
+        Seen(kLaptop, 0.3F + 0.07F * static_cast<float>(i), desk.BoxAround(4, ViewFrom(i), 7));
+    confused.class_scores[kMonitor] = 0.29F;
+    desk.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.63F, desk.BoxAround(3, ViewFrom(i), 9)), confused});
+  }
+  const SemanticMap forward = desk.Fuse();
+  std::reverse(desk.keyframes().begin(), desk.keyframes().end());
+  const SemanticMap backward = desk.Fuse();
+  ASSERT_EQ(forward.objects.size(), 2U);
+  EXPECT_EQ(forward.class_of_point, backward.class_of_point);
+  EXPECT_EQ(forward.confidence_of_point, backward.confidence_of_point);
+  EXPECT_EQ(forward.object_of_point, backward.object_of_point);
+}
+
+TEST(BuildSemanticMap, IgnoresNonsenseFromTheDetector) {
+  Desk desk({kCupBox});
+  for (int i = 0; i < 3; ++i) {
+    const ImageBox box = desk.BoxAround(3, ViewFrom(i), 9);
+    Detection nan_score = Seen(kMonitor, std::nanf(""), box);
+    Detection unknown = Seen(kMonitor, 0.9F, box);
+    unknown.class_id = 99;
+    Detection short_scores = Seen(kMonitor, 0.9F, box);
+    short_scores.class_scores.resize(1);
+    desk.AddKeyframe(ViewFrom(i),
+                     {nan_score, unknown, short_scores,
+                      Seen(kMonitor, 0.9F, {-900, -900, -800, -800}), Seen(kCup, 0.6F, box)});
+  }
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].class_id, kCup);
+}
+
+TEST(BuildSemanticMap, KeepsTheIdsOfObjectsFoundAgain) {
+  const Box second{{0.3, 0.1, 1.0}, {0.45, 0.3, 1.15}};
+  Desk before({second});
+  for (int i = 0; i < 3; ++i) {
+    before.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.7F, before.BoxAround(3, ViewFrom(i), 6))});
+  }
+  const SemanticMap first_map = before.Fuse();
+  ASSERT_EQ(first_map.objects.size(), 1U);
+
+  Desk after({kCupBox, second});
+  for (int i = 0; i < 3; ++i) {
+    after.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.7F, after.BoxAround(3, ViewFrom(i), 6)),
+                                    Seen(kCup, 0.7F, after.BoxAround(4, ViewFrom(i), 6))});
+  }
+  const SemanticMap map = after.Fuse({}, &first_map);
+  ASSERT_EQ(map.objects.size(), 2U);
+  EXPECT_EQ(map.objects[0].segments, std::vector<SegmentId>{4});  // Was there before.
+  EXPECT_EQ(map.objects[1].segments, std::vector<SegmentId>{3});
+  EXPECT_EQ(map.next_object_id, 3U);
+}
+
+TEST(BuildSemanticMap, WithoutDetectionsHasSegmentsOnly) {
+  Desk desk({kCupBox});
+  desk.AddKeyframe(ViewFrom(0), {});
+  const SemanticMap map = desk.Fuse();
+  EXPECT_TRUE(map.objects.empty());
+  EXPECT_EQ(desk.ClassesOf(map, 3), std::set<int>{kNoClass});
+  EXPECT_EQ(map.object_of_point.size(), map.segment_of_point.size());
+  const SemanticMap empty = BuildSemanticMap({}, VoxelIndex(), {}, {}, Classes(), {});
+  EXPECT_TRUE(empty.class_of_point.empty());
+}
+
+}  // namespace
+}  // namespace semslam
