@@ -87,7 +87,7 @@ void AppendTo(MapCloud& cloud, const Voxel& voxel) {
     offset[axis] = (voxel.position[i] / weight + 0.5) / kPositionSteps;  // Samples were cut, not
                                                                          // rounded.
     normal[axis] = static_cast<float>(static_cast<std::int32_t>(voxel.normal[i]));
-    color[i] = static_cast<std::uint8_t>(voxel.color[i] / weight + 0.5);
+    color[i] = static_cast<std::uint8_t>(std::lround(voxel.color[i] / weight));
   }
   const Eigen::Vector3d p_voxel = CoordinatesOf(voxel.key()).cast<double>() + offset;
   cloud.positions.emplace_back((p_voxel * cloud.voxel_size).cast<float>());

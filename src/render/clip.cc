@@ -32,6 +32,8 @@ void RenderedClip::Options::MakeClean() {
 }
 
 void RenderedClip::Options::Validate() const {
+  color.Validate();
+  depth.Validate();
   if (num_frames < 1)
     throw InputError("frames: expected at least 1, found " + std::to_string(num_frames));
   if (!(fps > 0) || fps > 1e4)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "semslam/base/parallel.h"
 #include "semslam/render/hash.h"
@@ -108,6 +109,12 @@ ColorSensorOptions ColorSensorOptions::Clean() {
   options.read_noise = 0;
   options.shot_noise = 0;
   return options;
+}
+
+void ColorSensorOptions::Validate() const {
+  const bool is_valid = exposure_s >= 0 && gain > 0 && gain_drift >= 0 && gain_drift < 1 &&
+                        vignetting >= 0 && vignetting <= 1 && read_noise >= 0 && shot_noise >= 0;
+  if (!is_valid) throw std::invalid_argument("colour sensor: an option is out of its range");
 }
 
 cv::Mat SenseColor(const IdealImage& ideal,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "semslam/base/parallel.h"
@@ -90,6 +91,14 @@ DepthSensorOptions DepthSensorOptions::Clean() {
   options.projector_shadow = false;
   options.hole_rate = 0;
   return options;
+}
+
+void DepthSensorOptions::Validate() const {
+  const bool is_valid = focal_px > 0 && baseline_m > 0 && disparity_step_px >= 0 &&
+                        disparity_noise_px >= 0 && fray_px >= 0 && min_depth_m >= 0 &&
+                        max_depth_m > min_depth_m && min_incidence >= 0 && min_incidence <= 1 &&
+                        hole_rate >= 0 && hole_rate <= 1;
+  if (!is_valid) throw std::invalid_argument("depth sensor: an option is out of its range");
 }
 
 cv::Mat SenseDepth(const IdealImage& ideal,

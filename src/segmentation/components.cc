@@ -35,6 +35,17 @@ bool IsSideways(const Patch& a, const Patch& b, double angle) {
   return ToDegrees(std::atan2(sine, cosine)) < threshold;
 }
 
+// Smooth, and flat or bent outwards.
+bool BendsOutwards(const Patch& a, const Patch& b, double angle, const ComponentOptions& options) {
+  if (HasStep(a, b, angle, options.step_tolerance)) return false;
+  return angle <= options.concavity_tolerance ||
+         (a.normal - b.normal).dot(a.centroid - b.centroid) > 0;
+}
+
+double AngleBetween(const Patch& a, const Patch& b) {
+  return std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
+}
+
 bool IsOn(const PatchGraph& graph,
           const PatchEdge& edge,
           const std::vector<std::uint32_t>& plane_labels,
@@ -130,11 +141,9 @@ Components Collect(const PatchGraph& graph,
 }  // namespace
 
 bool IsConvex(const Patch& a, const Patch& b, const ComponentOptions& options) {
-  const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
-  if (HasStep(a, b, angle, options.step_tolerance)) return false;
-  if (angle <= options.concavity_tolerance) return true;
-  if (IsSideways(a, b, angle)) return false;
-  return (a.normal - b.normal).dot(a.centroid - b.centroid) > 0;
+  const double angle = AngleBetween(a, b);
+  return BendsOutwards(a, b, angle, options) &&
+         (angle <= options.concavity_tolerance || !IsSideways(a, b, angle));
 }
 
 Components FindComponents(const PatchGraph& graph,
@@ -149,7 +158,10 @@ Components FindComponents(const PatchGraph& graph,
   JoinAcrossBorders(
       graph,
       [&](std::uint32_t a, std::uint32_t b) { return !is_structural[a] && !is_structural[b]; },
-      [&](const Patch& a, const Patch& b) { return IsConvex(a, b, options); }, sets);
+      [&](const Patch& a, const Patch& b) {
+        return BendsOutwards(a, b, AngleBetween(a, b), options);
+      },
+      sets);
   JoinAcrossBorders(
       graph, [&](std::uint32_t a, std::uint32_t b) { return is_structural[a] && is_structural[b]; },
       [&](const Patch& a, const Patch& b) { return IsFlush(a, b, options); }, sets);

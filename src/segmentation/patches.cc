@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segmentation/patches.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+
+#include "semslam/base/parallel.h"
 
 #include "segmentation/radix_sort.h"
 
@@ -35,35 +36,59 @@ std::vector<Patch> MakePatches(const VoxelGrid& grid,
   return patches;
 }
 
-// The area of a patch is that of its shadow along the axis its normal is nearest to, over the
-// cosine between them. The shadow counts columns of voxels, so that a surface that noise has made
-// several voxels thick is counted once.
-void MeasureAreas(const VoxelGrid& grid,
-                  const Supervoxels& supervoxels,
-                  std::vector<Patch>& patches) {
-  std::vector<std::size_t> place(patches.size() + 1, 0);
-  for (std::size_t i = 0; i < patches.size(); ++i) place[i + 1] = place[i] + patches[i].num_voxels;
-  std::vector<std::uint64_t> columns(place.back());
-  std::vector<int> axes(patches.size(), 0);
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    patches[i].normal.cwiseAbs().maxCoeff(&axes[i]);
+// The voxel one step along an axis, if it is occupied.
+std::uint32_t StepAlong(const VoxelGrid& grid, std::uint32_t voxel, int axis, int direction) {
+  const Eigen::Vector3i target = grid.cells[voxel] + direction * Eigen::Vector3i::Unit(axis);
+  for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
+    if (grid.cells[other] == target) return other;
   }
+  return kNoVoxel;
+}
+
+// Number of voxels of the surface that stand in one column with `voxel`, which is one of them.
+int CountColumn(const VoxelGrid& grid,
+                const std::vector<Eigen::Vector3f>& normals,
+                const Eigen::Vector3f& patch_normal,
+                std::uint32_t voxel,
+                int axis) {
+  constexpr float kMinCosine = 0.7F;  // Other voxels belong to another surface that ends here.
+  constexpr int kMaxSteps = 8;
+  int count = 1;
+  for (const int direction : {-1, 1}) {
+    std::uint32_t next = StepAlong(grid, voxel, axis, direction);
+    for (int i = 0; i < kMaxSteps && next != kNoVoxel; ++i) {
+      if (normals[next].dot(patch_normal) < kMinCosine) break;
+      ++count;
+      next = StepAlong(grid, next, axis, direction);
+    }
+  }
+  return count;
+}
+
+// The area of a patch is that of its shadow along the axis its normal is nearest to, over the
+// cosine between them. A column of the shadow is shared by all voxels of the surface in it, so that
+// a surface that noise has made several voxels thick is counted once.
+void MeasureAreas(const VoxelGrid& grid,
+                  const std::vector<Eigen::Vector3f>& normals,
+                  const Supervoxels& supervoxels,
+                  int num_threads,
+                  std::vector<Patch>& patches) {
+  std::vector<float> shares(grid.size());
+  ParallelFor(grid.size(), 8192, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last; ++voxel) {
+      const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
+      if (index == kNoPatch) continue;
+      const Eigen::Vector3f normal = patches[index].normal.cast<float>();
+      int axis = 0;
+      const float cosine = normal.cwiseAbs().maxCoeff(&axis);
+      const int count = CountColumn(grid, normals, normal, static_cast<std::uint32_t>(voxel), axis);
+      shares[voxel] = 1.0F / (static_cast<float>(count) * (cosine > 0 ? cosine : 1.0F));
+    }
+  });
+  const double face = grid.voxel_size * grid.voxel_size;
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
     const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
-    if (index == kNoPatch) continue;
-    const Eigen::Vector3i& cell = grid.cells[voxel];
-    const int axis = axes[index];
-    columns[place[index]++] = static_cast<std::uint64_t>(cell[(axis + 1) % 3]) << 32 |
-                              static_cast<std::uint64_t>(cell[(axis + 2) % 3]);
-  }
-  const double face = grid.voxel_size * grid.voxel_size;
-  for (std::size_t i = 0; i < patches.size(); ++i) {  // place[i] is now the end of patch i.
-    const auto end = columns.begin() + static_cast<std::ptrdiff_t>(place[i]);
-    const auto begin = end - static_cast<std::ptrdiff_t>(patches[i].num_voxels);
-    std::sort(begin, end);
-    const auto num_columns = static_cast<double>(std::unique(begin, end) - begin);
-    const double cosine = std::abs(patches[i].normal[axes[i]]);
-    patches[i].area = num_columns * face / (cosine > 0 ? cosine : 1.0);
+    if (index != kNoPatch) patches[index].area += face * static_cast<double>(shares[voxel]);
   }
 }
 
@@ -96,9 +121,10 @@ std::vector<PatchEdge> FindEdges(const VoxelGrid& grid, const Supervoxels& super
 
 PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
-                           const Supervoxels& supervoxels) {
+                           const Supervoxels& supervoxels,
+                           int num_threads) {
   PatchGraph graph{MakePatches(grid, normals, supervoxels), FindEdges(grid, supervoxels)};
-  MeasureAreas(grid, supervoxels, graph.patches);
+  MeasureAreas(grid, normals, supervoxels, num_threads, graph.patches);
   return graph;
 }
 

@@ -38,6 +38,7 @@ struct PatchGraph {
 
 PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
-                           const Supervoxels& supervoxels);
+                           const Supervoxels& supervoxels,
+                           int num_threads);
 
 }  // namespace semslam

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -19,6 +20,8 @@
 
 namespace semslam {
 namespace {
+
+constexpr std::size_t kMaxScoredPlanes = 4000;
 
 void AddPlanesOfFlatPatches(const std::vector<Patch>& patches,
                             const PlaneHypothesisOptions& options,
@@ -110,6 +113,34 @@ std::vector<Plane> Merge(const std::vector<Patch>& patches,
   return Pick(planes, kept);
 }
 
+// Of planes in the order of their support, those that support at least the least area better than
+// all before them do. The others could not lower the energy of the selection, but would make it
+// quadratically dearer.
+std::vector<Plane> KeepNovel(const std::vector<Patch>& patches,
+                             const std::vector<Plane>& planes,
+                             const PlaneHypothesisOptions& options) {
+  const double max_cost = 20 * options.tolerance;
+  std::vector<double> best(patches.size(), 0.0);
+  std::vector<std::pair<std::size_t, double>> support;
+  std::vector<Plane> kept;
+  for (const Plane& plane : planes) {
+    support.clear();
+    double novel_area = 0;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (std::abs(plane.SignedDistance(patches[i].centroid)) > max_cost) continue;
+      const double cost = PatchCost(patches[i], plane, options.min_normal_cosine);
+      const double weight = std::exp(-cost / (2 * options.tolerance));
+      if (weight <= best[i]) continue;
+      support.emplace_back(i, weight);
+      novel_area += patches[i].area * (weight - best[i]);
+    }
+    if (novel_area < options.min_area) continue;
+    for (const auto& [i, weight] : support) best[i] = weight;
+    kept.push_back(plane);
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<std::size_t> BestOfCells(const std::vector<Plane>& planes,
@@ -154,6 +185,10 @@ std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
                                  int num_threads) {
   std::vector<Plane> planes;
   AddPlanesOfFlatPatches(patches, options, planes);
+  if (planes.size() > kMaxScoredPlanes) {  // Scoring them all would be quadratic in the scene.
+    const std::vector<double> equal(planes.size(), 1.0);
+    planes = Pick(planes, BestOfCells(planes, equal, MeanCentroid(patches), options));
+  }
   AddRandomPlanes(patches, options, planes);
   planes = Merge(patches, planes, options, num_threads);
   if (planes.size() > options.max_planes) planes.resize(options.max_planes);
@@ -162,7 +197,7 @@ std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
       planes[i] = RefitPlane(patches, planes[i], options);
     }
   });
-  return Merge(patches, planes, options, num_threads);
+  return KeepNovel(patches, Merge(patches, planes, options, num_threads), options);
 }
 
 }  // namespace semslam

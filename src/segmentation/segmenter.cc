@@ -62,7 +62,7 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   result.times.normals = Lap(watch);
   const Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
   result.times.supervoxels = Lap(watch);
-  const PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels);
+  const PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.patches = Lap(watch);
 
   std::vector<Plane> planes = ProposePlanes(graph.patches, options_.planes, num_threads);

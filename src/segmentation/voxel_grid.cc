@@ -239,13 +239,18 @@ VoxelGrid BuildConnectedVoxelGrid(const PointCloudView& cloud,
                                   double voxel_size,
                                   double max_growth,
                                   int num_threads) {
-  // A closed surface has eight neighbours a voxel and more; stripes and crumbs have fewer.
+  // A closed surface has eight neighbours a voxel and more; stripes and crumbs have fewer. One step
+  // more than that asks for closes the last seams between stripes.
   constexpr double kMinNeighbours = 6.5;
   constexpr double kStep = 1.25;
   VoxelGrid grid = BuildVoxelGrid(cloud, voxel_size, num_threads);
-  for (double growth = kStep; growth <= max_growth; growth *= kStep) {
-    const double num_neighbours = static_cast<double>(grid.neighbours.size());
-    if (num_neighbours >= kMinNeighbours * static_cast<double>(grid.size())) break;
+  const auto is_sparse = [&] {
+    return static_cast<double>(grid.neighbours.size()) <
+           kMinNeighbours * static_cast<double>(grid.size());
+  };
+  bool was_sparse = is_sparse();
+  for (double growth = kStep; growth <= max_growth && was_sparse; growth *= kStep) {
+    was_sparse = is_sparse();
     grid = BuildVoxelGrid(cloud, voxel_size * growth, num_threads);
   }
   return grid;

@@ -63,7 +63,7 @@ std::string Normalise(std::string_view name) {
 
 // The first name of the group of synonyms, or the name itself.
 std::string Canonical(std::string_view name) {
-  const std::string normal = Normalise(name);
+  std::string normal = Normalise(name);
   if (normal.empty()) return normal;
   for (const SynonymGroup& group : kSynonyms) {
     if (std::find(group.begin(), group.end(), normal) != group.end()) return std::string(group[0]);

@@ -44,7 +44,7 @@ DarknetConfig DarknetConfig::FromText(std::string_view text, const std::string& 
     if (line.empty() || line[0] == ';') continue;
     const std::string where = name + ":" + std::to_string(number) + ": ";
     if (line[0] == '[') {
-      if (line.back() != ']') throw InputError(where + "expected [section], found '" + line + "'");
+      if (line.back() != ']') throw InputError(where + "expected a closing ']'");
       config.sections_.push_back({line.substr(1, line.size() - 2), number, {}});
       continue;
     }
@@ -79,7 +79,9 @@ std::string DarknetConfig::ToText() const {
   std::string text;
   for (const Section& section : sections_) {
     text += "[" + section.type + "]\n";
-    for (const auto& [key, value] : section.values) text += key + "=" + value + "\n";
+    for (const auto& [key, value] : section.values) {
+      text.append(key).append("=").append(value).append("\n");
+    }
     text += "\n";
   }
   return text;

@@ -106,7 +106,9 @@ class DarknetDetector::Network {
     const std::vector<cv::Mat> outputs =
         Forward(MakeBlob(grey, Letterbox::Fit(width_, height_, width_, height_)));
     std::vector<std::pair<int, int>> found;
+    found.reserve(outputs.size());
     std::vector<std::pair<int, int>> expected;
+    expected.reserve(shape_.heads.size());
     for (const cv::Mat& output : outputs) {
       found.emplace_back(output.dims == 2 && output.type() == CV_32FC1 ? output.rows : -1,
                          output.dims == 2 ? output.cols : -1);

@@ -163,7 +163,7 @@ class KeyframeJudge {
     }
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = i + 1; j < held.size(); ++j) {
-        shared_.push_back({held[i], held[j]});  // The map's order: held is ascending.
+        shared_.emplace_back(held[i], held[j]);  // The map's order: held is ascending.
       }
     }
   }

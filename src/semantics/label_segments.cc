@@ -81,6 +81,8 @@ class Labeller {
     const std::uint32_t num_views = sums.num_views[static_cast<std::size_t>(best.class_id)];
     if (best.confidence < options_.min_confidence || num_views == 0) return;
     if (num_views < std::min(options_.min_views, sums.num_seen)) return;
+    const std::int64_t alpha = sums.alpha[static_cast<std::size_t>(best.class_id)];
+    if (static_cast<double>(alpha) * kEvidenceUnit < options_.min_evidence) return;
     label.class_id = best.class_id;
   }
 

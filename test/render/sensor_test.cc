@@ -181,5 +181,16 @@ TEST(ColorSensor, TurningSmearsAnEdgeOverTheExposure) {
   EXPECT_NEAR(num_between, 2 * kHalfAngle * CameraByName("TUM3").fx, 1.5);
 }
 
+TEST(SensorOptions, ImpossibleOnesAreRefused) {
+  DepthSensorOptions depth;
+  depth.hole_rate = 1.5;
+  EXPECT_THROW(depth.Validate(), std::invalid_argument);
+  ColorSensorOptions color;
+  color.gain = 0;
+  EXPECT_THROW(color.Validate(), std::invalid_argument);
+  EXPECT_NO_THROW(DepthSensorOptions::Clean().Validate());
+  EXPECT_NO_THROW(ColorSensorOptions::Clean().Validate());
+}
+
 }  // namespace
 }  // namespace semslam

@@ -42,7 +42,7 @@ TEST(LabelledScenes, AreSegmentedLikeTheTruth) {
   }
   const double mean = sum / static_cast<double>(scenes.size());
   std::printf("mean ARI %.3f\n", mean);
-  EXPECT_GE(mean, 0.8);
+  EXPECT_GE(mean, 0.95);
 }
 
 }  // namespace

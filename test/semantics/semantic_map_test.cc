@@ -214,6 +214,14 @@ TEST(BuildSemanticMap, NeedsTwoViewsOfWhatManySaw) {
   EXPECT_TRUE(desk.Fuse().objects.empty());
 }
 
+TEST(BuildSemanticMap, BelievesTheOnlyViewIfItIsSure) {
+  for (const auto& [score, expected] : {std::pair{0.9F, 1U}, {0.4F, 0U}}) {
+    Desk desk({kCupBox});
+    desk.AddKeyframe(ViewFrom(0), {Seen(kCup, score, desk.BoxAround(3, ViewFrom(0), 8))});
+    EXPECT_EQ(desk.Fuse().objects.size(), expected) << score;
+  }
+}
+
 TEST(BuildSemanticMap, AveragesTheDistributionOfConfusedClasses) {
   Desk desk({{{-0.2, 0.0, 1.2}, {0.2, 0.3, 1.25}}});
   for (int i = 0; i < 4; ++i) {

@@ -4,36 +4,39 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace semslam::internal {
 
-// Collects the message of a failed check and throws it at the end of the statement.
-class CheckFailure {
+// What a failed check throws; the values streamed into it become part of its text.
+class CheckError : public std::logic_error {
  public:
-  CheckFailure(const char* file, int line, const char* condition) {
-    text_ << file << ':' << line << ": check failed: " << condition << ' ';
-  }
-  CheckFailure(const CheckFailure&) = delete;
-  CheckFailure& operator=(const CheckFailure&) = delete;
-  // NOLINTNEXTLINE(bugprone-exception-escape): throwing is what it is for.
-  ~CheckFailure() noexcept(false) { throw std::logic_error(text_.str()); }
+  CheckError(const char* file, int line, const char* condition)
+      : std::logic_error(condition),
+        text_(std::string(file) + ':' + std::to_string(line) + ": check failed: " + condition +
+              ' ') {}
 
   template <typename T>
-  CheckFailure& operator<<(const T& value) {
-    text_ << value;
-    return *this;
+  CheckError&& operator<<(const T& value) && {
+    std::ostringstream stream;
+    stream << value;
+    text_ += stream.str();
+    return std::move(*this);
   }
 
+  const char* what() const noexcept override { return text_.c_str(); }
+
  private:
-  std::ostringstream text_;
+  std::string text_;
 };
 
 }  // namespace semslam::internal
 
-// A broken contract between parts of the program: throws std::logic_error with file, line and
+// A broken contract between parts of the program: throws a std::logic_error with file, line and
 // values.
 //   SEMSLAM_CHECK(voxel_size > 0) << "voxel_size = " << voxel_size;
 #define SEMSLAM_CHECK(condition) \
   if (condition) {               \
   } else                         \
-    ::semslam::internal::CheckFailure(__FILE__, __LINE__, #condition)
+    throw ::semslam::internal::CheckError(__FILE__, __LINE__, #condition)

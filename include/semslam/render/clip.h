@@ -49,7 +49,8 @@ class RenderedClip : public FrameSource {
     int num_threads = 0;               // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
     void MakeClean();
-    void Validate() const;  // Throws InputError.
+    // Throws InputError for what a user can say, std::invalid_argument for the sensors.
+    void Validate() const;
   };
 
   explicit RenderedClip(const Options& options);

@@ -21,6 +21,7 @@ struct ColorSensorOptions {
   double read_noise = 1.3;    // Standard deviation in grey levels, in the dark.
   double shot_noise = 1.6;    // The same for white, added in quadrature.
   static ColorSensorOptions Clean();
+  void Validate() const;  // Throws std::invalid_argument.
 };
 
 // A structured-light sensor. Its disparity is focal * baseline / z; quantised and noisy disparity
@@ -39,6 +40,7 @@ struct DepthSensorOptions {
   bool projector_shadow = true;  // What the projector cannot light is missing.
   double hole_rate = 0.3;        // Part of the pixels beside a jump of depth that are missing.
   static DepthSensorOptions Clean();
+  void Validate() const;  // Throws std::invalid_argument.
 };
 
 // The time a frame is taken, and how the camera moves then.

@@ -11,7 +11,7 @@ namespace semslam {
 struct SupervoxelOptions {
   double voxel_size = 0.008;  // Metres.
   // Clouds sparser than the voxels would fall apart: then the voxels grow, up to this factor.
-  double max_voxel_growth = 3.0;
+  double max_voxel_growth = 4.0;
   double seed_spacing = 0.08;   // Metres between the seeds of supervoxels.
   double spatial_weight = 0.4;  // Of the distance in seed spacings.
   double normal_weight = 1.0;   // Of one minus the cosine between the normals.
@@ -58,7 +58,7 @@ struct ComponentOptions {
   double step_tolerance = 0.004;        // Step that still counts as smooth, metres.
   std::size_t min_patches = 2;          // Smaller components are unassigned.
   double min_structural_area = 0.25;  // Planes from here on are floor, wall, table: square metres.
-  double flush_tolerance = 0.01;      // Of a patch against its neighbour's tangent plane, metres.
+  double flush_tolerance = 0.008;     // Of a patch against its neighbour's tangent plane, metres.
   double min_core_area = 0.1;     // A plane from here on, square metres, also takes patches that
   double warp_tolerance = 0.045;  // continue it and are this near, metres.
 };

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "semslam/dense/keyframe_cloud.h"
@@ -54,11 +54,7 @@ struct SegmentEvidence {
 };
 inline constexpr double kEvidenceUnit = 1.0 / (1 << 20);
 
-struct SegmentPair {
-  SegmentId first = 0;  // first < second.
-  SegmentId second = 0;
-  friend auto operator<=>(SegmentPair, SegmentPair) = default;
-};
+using SegmentPair = std::pair<SegmentId, SegmentId>;  // The lower id first.
 
 struct Evidence {
   std::vector<SegmentEvidence> segments;  // segments[i] belongs to segment i + 1.

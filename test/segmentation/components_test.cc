@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segmentation/components.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "segmentation/surface_growth.h"
+
+namespace semslam {
+namespace {
+
+Patch MakePatch(const Eigen::Vector3d& centroid,
+                const Eigen::Vector3d& normal,
+                double area = 0.0064) {
+  Patch patch;
+  patch.centroid = centroid;
+  patch.normal = normal.normalized();
+  patch.area = area;
+  return patch;
+}
+
+// Two patches of a roof (angle > 0) or a valley (angle < 0) that meet at x = 0.
+std::pair<Patch, Patch> Bend(double degrees) {
+  const double slope = 0.5 * degrees * std::numbers::pi / 180;
+  const double x = 0.04 * std::cos(slope);
+  const double z = -0.04 * std::sin(slope);
+  return {MakePatch({-x, 0, z}, {-std::sin(slope), 0, std::cos(slope)}),
+          MakePatch({x, 0, z}, {std::sin(slope), 0, std::cos(slope)})};
+}
+
+// A row of patches with edges between neighbours.
+PatchGraph Row(const std::vector<Patch>& patches) {
+  PatchGraph graph;
+  graph.patches = patches;
+  for (std::uint32_t i = 1; i < patches.size(); ++i) graph.edges.push_back({i - 1, i, 10});
+  return graph;
+}
+
+TEST(Components, RoofsAreConvexAndValleysAreNot) {
+  for (const double degrees : {20.0, 45.0, 90.0, 120.0}) {
+    const auto [a, b] = Bend(degrees);
+    EXPECT_TRUE(IsConvex(a, b, ComponentOptions())) << degrees;
+    const auto [c, d] = Bend(-degrees);
+    EXPECT_FALSE(IsConvex(c, d, ComponentOptions())) << degrees;
+  }
+}
+
+TEST(Components, SlightValleysCountAsFlat) {
+  const auto [a, b] = Bend(-8);
+  EXPECT_TRUE(IsConvex(a, b, ComponentOptions()));
+}
+
+TEST(Components, StepsAreNotConvex) {
+  EXPECT_FALSE(IsConvex(MakePatch({0, 0, 0}, {0, 0, 1}), MakePatch({0.08, 0, 0.02}, {0, 0, 1}),
+                        ComponentOptions()));
+}
+
+TEST(Components, ContactsAlongTheLineOfIntersectionAreNotConvex) {
+  // The tangent planes meet in a line along y, and so do the centroids.
+  const Patch a = MakePatch({0, 0, 0}, {-1, 0, 1});
+  const Patch b = MakePatch({0.002, 0.08, 0}, {1, 0, 1});
+  EXPECT_FALSE(IsConvex(a, b, ComponentOptions()));
+}
+
+TEST(Components, SinglePatchesAreUnassigned) {
+  const auto flat = [](double x) { return MakePatch({x, 0, 0}, {0, 0, 1}); };
+  PatchGraph graph = Row({flat(0), flat(0.08)});
+  graph.patches.push_back(flat(1));
+  const Components components = FindComponents(graph, {0, 0, 0}, ComponentOptions());
+  EXPECT_EQ(components.components.size(), 1U);
+  EXPECT_EQ(components.component_of_patch[2], kNoComponent);
+}
+
+// Four large patches of a floor, then four of a wall: over a convex and over a concave edge.
+PatchGraph FloorAndWall(double wall_sign, double area) {
+  std::vector<Patch> patches;
+  for (int i = 3; i >= 0; --i) {
+    patches.push_back(MakePatch({-0.04 - 0.08 * i, 0, 0}, {0, 0, 1}, area));
+  }
+  for (int i = 0; i < 4; ++i) {
+    patches.push_back(MakePatch({0, 0, wall_sign * (0.04 + 0.08 * i)}, {-wall_sign, 0, 0}, area));
+  }
+  return Row(patches);
+}
+
+const std::vector<std::uint32_t> kTwoPlanes = {1, 1, 1, 1, 2, 2, 2, 2};
+
+TEST(Components, SmallFacesJoinOverAConvexEdge) {
+  const Components components =
+      FindComponents(FloorAndWall(-1, 0.0064), kTwoPlanes, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 1U);
+  EXPECT_EQ(components.components[0].plane_label, 0U);
+  EXPECT_FALSE(components.components[0].is_structural);
+}
+
+TEST(Components, SmallFacesStayApartAtAConcaveEdge) {
+  const Components components =
+      FindComponents(FloorAndWall(1, 0.0064), kTwoPlanes, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 2U);
+  EXPECT_EQ(components.components[1].plane_label, 2U);
+}
+
+TEST(Components, StructuralPlanesStayApartAtAConvexEdge) {
+  const Components components =
+      FindComponents(FloorAndWall(-1, 0.2), kTwoPlanes, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 2U);
+  EXPECT_TRUE(components.components[0].is_structural);
+  EXPECT_NEAR(components.components[0].area, 0.8, 1e-12);
+}
+
+TEST(Components, WarpedFloorOfTwoPlanesIsOne) {
+  std::vector<Patch> patches;
+  for (int i = 0; i < 8; ++i)
+    patches.push_back(MakePatch({0.08 * i, 0, 0.001 * i}, {0, 0, 1}, 0.2));
+  const Components components = FindComponents(Row(patches), kTwoPlanes, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 1U);
+  EXPECT_TRUE(components.components[0].is_structural);
+  EXPECT_NE(components.components[0].plane_label, 0U);
+}
+
+TEST(SurfaceGrowth, FollowsAWarpedPlaneUpToItsTolerance) {
+  std::vector<Patch> patches;  // Falls away by 6 mm a patch.
+  for (int i = 0; i < 16; ++i) {
+    patches.push_back(MakePatch({0.08 * i, 0, -0.006 * std::max(0, i - 3)}, {0, 0, 1}, 0.05));
+  }
+  std::vector<std::uint32_t> labels(16, 0);
+  for (std::size_t i = 0; i < 5; ++i) labels[i] = 1;
+  const auto grown =
+      GrowSurfaces(Row(patches), {{Eigen::Vector3d::UnitZ(), 0}}, labels, ComponentOptions());
+  for (std::size_t i = 0; i < 16; ++i) {
+    const bool is_near = patches[i].centroid.z() >= -0.045;
+    EXPECT_EQ(grown[i], is_near ? 1U : 0U) << i;
+  }
+}
+
+TEST(SurfaceGrowth, StopsAtAStep) {
+  std::vector<Patch> patches;
+  for (int i = 0; i < 8; ++i) {
+    patches.push_back(MakePatch({0.08 * i, 0, i < 4 ? 0 : 0.025}, {0, 0, 1}, 0.05));
+  }
+  const std::vector<std::uint32_t> labels = {1, 1, 1, 1, 0, 0, 0, 0};
+  EXPECT_EQ(GrowSurfaces(Row(patches), {{Eigen::Vector3d::UnitZ(), 0}}, labels, ComponentOptions()),
+            labels);
+}
+
+TEST(SurfaceGrowth, SmallPlanesDoNotGrow) {
+  std::vector<Patch> patches;
+  for (int i = 0; i < 4; ++i) patches.push_back(MakePatch({0.08 * i, 0, 0}, {0, 0, 1}, 0.01));
+  const std::vector<std::uint32_t> labels = {1, 1, 0, 0};
+  EXPECT_EQ(GrowSurfaces(Row(patches), {{Eigen::Vector3d::UnitZ(), 0}}, labels, ComponentOptions()),
+            labels);
+}
+
+}  // namespace
+}  // namespace semslam
