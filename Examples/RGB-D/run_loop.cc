@@ -16,6 +16,8 @@
 
 namespace {
 
+constexpr std::size_t kMaxReports = 10;  // Of unreadable frames.
+
 const char* StateName(semslam::TrackingState state) {
   switch (state) {
     case semslam::TrackingState::kNotInitialized:
@@ -83,8 +85,10 @@ RunStatistics Run(semslam::FrameSource& source,
     try {
       image = source.Next();
     } catch (const semslam::InputError& error) {
-      progress.Report(std::string("frame skipped: ") + error.what());
-      ++statistics.num_unreadable;
+      if (statistics.num_unreadable < kMaxReports)
+        progress.Report(std::string("frame skipped: ") + error.what());
+      if (++statistics.num_unreadable == kMaxReports)
+        progress.Report("further unreadable frames are counted only");
       continue;
     }
     if (!image) break;

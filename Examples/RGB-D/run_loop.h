@@ -34,8 +34,8 @@ struct RunOptions {
   std::function<bool()> should_stop;  // Asked before every frame.
 };
 
-// Feeds all frames of the source to the system. An unreadable frame is reported, counted and
-// skipped.
+// Feeds all frames of the source to the system. An unreadable frame is counted and skipped, and
+// the first ones are reported.
 RunStatistics Run(semslam::FrameSource& source,
                   semslam::System& system,
                   const RunOptions& options,
