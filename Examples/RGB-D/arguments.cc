@@ -3,6 +3,7 @@
 
 #include "arguments.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -11,9 +12,18 @@
 #include "semslam/semantics/darknet_detector.h"
 #include "semslam/semantics/recorded_detector.h"
 
+#include "printable.h"
+
 namespace {
 
 constexpr const char* kNamesInDetections = "classes.names";
+
+// Empty if the text is a score; nan is none.
+std::string CheckScore(const std::string& text) {
+  double score = 0;
+  const bool is_score = CLI::detail::lexical_cast(text, score) && score > 0 && score <= 1;
+  return is_score ? "" : "expected a number above 0 and up to 1, found " + text;
+}
 
 void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("VOCABULARY", arguments.vocabulary,
@@ -36,9 +46,10 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
           ->excludes(network);
   app.add_option("--classes", arguments.classes,
                  "Classes to put into the map: cup,keyboard,... (default: all)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--score", arguments.score, "Least score of a detection (default: 0.25)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(CheckScore);
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
       ->excludes(detections);
@@ -56,15 +67,18 @@ ParseResult ParseArguments(int argc, char** argv) {
   CLI::App app(
       "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
       "rgbd_tum");
-  app.set_version_flag("--version", SEMSLAM_VERSION);
+  app.set_version_flag("--version", "rgbd_tum " SEMSLAM_VERSION);
   AddOptions(app, result.arguments);
   app.footer(
       "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "
       "of the frames.");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    result.exit_code = app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    result.exit_code = app.exit(error) == 0 ? 0 : 1;
+    std::cerr << "rgbd_tum: " << Printable(error.what()) << " (--help shows the usage)\n";
+    result.exit_code = 1;
   }
   return result;
 }
@@ -98,6 +112,7 @@ std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
         "classes were given, but no network: expected --network CFG WEIGHTS NAMES");
   }
   options.score_threshold = score;
+  options.min_class_score = std::min(options.min_class_score, score);
   options.nms_threshold = static_cast<float>(settings.nms_threshold);
   options.input_size = settings.input_size;
   return std::make_unique<semslam::DarknetDetector>(

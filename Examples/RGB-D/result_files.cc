@@ -73,9 +73,9 @@ semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>
 
 }  // namespace
 
-std::vector<std::string> WriteResults(const std::filesystem::path& folder,
-                                      const semslam::System& system,
-                                      const PointCloudMapping::Result& map) {
+std::string WriteResults(const std::filesystem::path& folder,
+                         const semslam::System& system,
+                         const PointCloudMapping::Result& map) {
   const std::function<void()> writers[] = {
       [&] {
         semslam::WriteTrajectory(folder / "CameraTrajectory.txt",
@@ -87,13 +87,13 @@ std::vector<std::string> WriteResults(const std::filesystem::path& folder,
       },
       [&] { WriteMap(folder, map); },
   };
-  std::vector<std::string> errors;
+  std::string first_error;
   for (const auto& write : writers) {
     try {
       write();
     } catch (const semslam::InputError& error) {
-      errors.emplace_back(error.what());
+      if (first_error.empty()) first_error = error.what();
     }
   }
-  return errors;
+  return first_error;
 }

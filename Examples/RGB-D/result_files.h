@@ -5,13 +5,12 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "semslam/pipeline/system.h"
 
 // Writes the trajectories, clouds, objects and pictures of a run. Each file appears whole or not at
-// all; a file that cannot be written does not keep the others from being written. Returns what went
-// wrong, a line each.
-std::vector<std::string> WriteResults(const std::filesystem::path& folder,
-                                      const semslam::System& system,
-                                      const semslam::PointCloudMapping::Result& map);
+// all; trajectories and map do not keep each other from being written. Returns the first thing that
+// went wrong, or nothing.
+std::string WriteResults(const std::filesystem::path& folder,
+                         const semslam::System& system,
+                         const semslam::PointCloudMapping::Result& map);

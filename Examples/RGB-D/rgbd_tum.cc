@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include <opencv2/core/utility.hpp>
@@ -21,6 +22,8 @@
 #include "semslam/place/vocabulary.h"
 
 #include "arguments.h"
+#include "printable.h"
+#include "progress_line.h"
 #include "result_files.h"
 #include "run_loop.h"
 #include "summary.h"
@@ -35,7 +38,8 @@ volatile std::sig_atomic_t interrupt_requested = 0;
 void InstallInterruptHandler() {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupt_requested = 1; };
-  action.sa_flags = SA_RESETHAND;  // A second Ctrl-C ends the program at once.
+  // A second Ctrl-C ends the program at once.
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
@@ -48,38 +52,68 @@ semslam::TumDataset OpenSequence(const Arguments& arguments, const semslam::Sett
   return {arguments.sequence, arguments.associations, options};
 }
 
-int MapSequence(const Arguments& arguments) {
-  const semslam::Settings settings = semslam::LoadSettings(arguments.settings);
-  for (const std::string& warning : settings.warnings)
-    std::cerr << "rgbd_tum: warning: " << warning << '\n';
-  semslam::TumDataset sequence = OpenSequence(arguments, settings);
-  auto vocabulary =
-      std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
+semslam::System::Options SystemOptions(const Arguments& arguments,
+                                       const semslam::Settings& settings,
+                                       ProgressLine& progress) {
   semslam::System::Options options;
   options.threading =
       arguments.sequential ? semslam::Threading::kInline : semslam::Threading::kWorkers;
   options.detector = MakeDetector(arguments, settings.detector);
-  options.log = [](semslam::LogLevel, std::string_view, std::string_view message) {
-    std::cerr << "\nrgbd_tum: " << message << '\n';
+  options.log = [&progress](semslam::LogLevel, std::string_view, std::string_view message) {
+    progress.Report(std::string(message));
   };
+  return options;
+}
+
+RunStatistics RunSequence(const Arguments& arguments,
+                          double fps,
+                          semslam::TumDataset& sequence,
+                          semslam::System& system,
+                          ProgressLine& progress) {
+  RunOptions options;
+  options.keep_frame_times = arguments.realtime;
+  options.fps = fps;
+  options.should_stop = [] { return interrupt_requested != 0; };
+  RunStatistics run = Run(sequence, system, options, progress);
+  if (run.num_frames > 0) return run;
+  // Nothing was mapped: results of an earlier run stay as they are.
+  throw semslam::InputError(run.interrupted ? "interrupted before the first frame: nothing to write"
+                                            : arguments.sequence.string() +
+                                                  ": expected frames, but no frame could be read");
+}
+
+bool IsTooMuchLost(const RunStatistics& run) {
+  const auto num_missed = static_cast<double>(run.num_lost() + run.num_unreadable);
+  return num_missed > kMaxLostShare * static_cast<double>(run.num_frames + run.num_unreadable);
+}
+
+// What is left to do after the last frame, for the one who waits.
+std::string RemainingSteps(const semslam::System::Status& status) {
+  std::string text = "finishing: ";
+  if (status.detector_queue > 0)
+    text += std::to_string(status.detector_queue) + " images to label, ";
+  return text + "segments, objects, files";
+}
+
+int MapSequence(const Arguments& arguments) {
+  const semslam::Settings settings = semslam::LoadSettings(arguments.settings);
+  ProgressLine progress;
+  for (const std::string& warning : settings.warnings) progress.Report("warning: " + warning);
+  semslam::TumDataset sequence = OpenSequence(arguments, settings);
+  auto vocabulary =
+      std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
+  semslam::System::Options options = SystemOptions(arguments, settings, progress);
   semslam::CheckOutputFolder(arguments.output);
 
   semslam::System system(settings, std::move(vocabulary), std::move(options));
-  RunOptions run_options;
-  run_options.keep_frame_times = arguments.realtime;
-  run_options.fps = settings.fps;
-  run_options.should_stop = [] { return interrupt_requested != 0; };
-  const RunStatistics run = Run(sequence, system, run_options);
+  const RunStatistics run = RunSequence(arguments, settings.fps, sequence, system, progress);
+  progress.ShowStep(RemainingSteps(system.status()));
   const semslam::PointCloudMapping::Result map = system.Shutdown();
-  const std::vector<std::string> errors = WriteResults(arguments.output, system, map);
+  const std::string error = WriteResults(arguments.output, system, map);
+  progress.Clear();
   PrintSummary(run, system, map, arguments.output);
-  for (const std::string& error : errors) std::cerr << "rgbd_tum: " << error << '\n';
-  if (!errors.empty()) return 1;
-  if (run.num_frames == 0)
-    throw semslam::InputError(arguments.sequence.string() + ": no frame could be read");
-  const auto num_missed = static_cast<double>(run.num_lost() + run.num_unreadable);
-  return num_missed > kMaxLostShare * static_cast<double>(run.num_frames + run.num_unreadable) ? 2
-                                                                                               : 0;
+  if (!error.empty()) throw semslam::InputError(error);
+  return IsTooMuchLost(run) ? 2 : 0;
 }
 
 }  // namespace
@@ -93,7 +127,7 @@ int main(int argc, char** argv) {
   try {
     return MapSequence(parsed.arguments);
   } catch (const std::exception& error) {
-    std::cerr << "rgbd_tum: " << error.what() << '\n';
+    std::cerr << "rgbd_tum: " << Printable(error.what()) << '\n';
     return 1;
   }
 }

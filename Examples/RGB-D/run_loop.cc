@@ -3,14 +3,13 @@
 
 #include "run_loop.h"
 
+#include <array>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
-
-#include <unistd.h>
 
 #include "semslam/base/error.h"
 #include "semslam/base/stopwatch.h"
@@ -29,44 +28,20 @@ const char* StateName(semslam::TrackingState state) {
   return "";
 }
 
-// One line that is written over while it runs; on a file or pipe, a line every few seconds.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::optional<std::size_t> num_frames)
-      : num_frames_(num_frames), is_terminal_(isatty(STDERR_FILENO) != 0) {}
-  ~ProgressLine() { Clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void Show(std::size_t frame, semslam::TrackingState state, const semslam::System& system) {
-    const double interval = is_terminal_ ? 0.2 : 5.0;
-    if (since_shown_.Seconds() < interval) return;
-    since_shown_.Restart();
-    const semslam::System::Status status = system.status();
-    std::fprintf(stderr,
-                 "%sframe %zu/%s  %.1f frames/s  %-8s  %zu keyframes  %zu landmarks  %zu voxels  "
-                 "waiting: mapping %zu, dense %zu, detector %zu%s",
-                 is_terminal_ ? "\r\033[K" : "", frame,
-                 num_frames_ ? std::to_string(*num_frames_).c_str() : "?",
-                 static_cast<double>(frame) / total_.Seconds(), StateName(state),
-                 status.num_keyframes, status.num_landmarks, status.num_voxels,
-                 status.mapping_queue, status.dense_queue, status.detector_queue,
-                 is_terminal_ ? "" : "\n");
-    is_shown_ = is_terminal_;
-  }
-
-  void Clear() {
-    if (is_shown_) std::fputs("\r\033[K", stderr);
-    is_shown_ = false;
-  }
-
- private:
-  std::optional<std::size_t> num_frames_;
-  bool is_terminal_;
-  bool is_shown_ = false;
-  semslam::Stopwatch total_;
-  semslam::Stopwatch since_shown_;
-};
+std::string ProgressText(std::size_t frame,
+                         std::optional<std::size_t> num_frames,
+                         double frames_per_second,
+                         semslam::TrackingState state,
+                         const semslam::System::Status& status) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "frame %zu/%s  %.1f/s  %-8s  %zu keyframes  %zu landmarks  "
+                "queues: map %zu, cloud %zu, detector %zu",
+                frame, num_frames ? std::to_string(*num_frames).c_str() : "?", frames_per_second,
+                StateName(state), status.num_keyframes, status.num_landmarks, status.mapping_queue,
+                status.dense_queue, status.detector_queue);
+  return text.data();
+}
 
 // Holds frames back until they are due, as a camera would.
 class Pacer {
@@ -93,9 +68,9 @@ class Pacer {
 
 RunStatistics Run(semslam::FrameSource& source,
                   semslam::System& system,
-                  const RunOptions& options) {
+                  const RunOptions& options,
+                  ProgressLine& progress) {
   RunStatistics statistics;
-  ProgressLine progress(source.NumFrames());
   Pacer pacer;
   const semslam::Stopwatch total;
   while (true) {
@@ -107,8 +82,7 @@ RunStatistics Run(semslam::FrameSource& source,
     try {
       image = source.Next();
     } catch (const semslam::InputError& error) {
-      progress.Clear();
-      std::cerr << "rgbd_tum: frame skipped: " << error.what() << '\n';
+      progress.Report(std::string("frame skipped: ") + error.what());
       ++statistics.num_unreadable;
       continue;
     }
@@ -121,7 +95,11 @@ RunStatistics Run(semslam::FrameSource& source,
     statistics.tracking_milliseconds.push_back(tracking.Milliseconds());
     ++statistics.num_frames;
     if (result.state == semslam::TrackingState::kTracking) ++statistics.num_tracked;
-    progress.Show(statistics.num_frames + statistics.num_unreadable, result.state, system);
+    if (!progress.is_due()) continue;
+    const std::size_t frame = statistics.num_frames + statistics.num_unreadable;
+    progress.Update(ProgressText(frame, source.NumFrames(),
+                                 static_cast<double>(frame) / total.Seconds(), result.state,
+                                 system.status()));
   }
   statistics.seconds = total.Seconds();
   return statistics;

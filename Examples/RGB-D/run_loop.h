@@ -11,6 +11,8 @@
 #include "semslam/camera/frame_source.h"
 #include "semslam/pipeline/system.h"
 
+#include "progress_line.h"
+
 // What happened to the frames of a run.
 struct RunStatistics {
   std::size_t num_frames = 0;  // Read, tracked or not.
@@ -30,6 +32,9 @@ struct RunOptions {
   std::function<bool()> should_stop;  // Asked before every frame.
 };
 
-// Feeds all frames of the source to the system, with a progress line on the terminal. An unreadable
-// frame is reported, counted and skipped.
-RunStatistics Run(semslam::FrameSource& source, semslam::System& system, const RunOptions& options);
+// Feeds all frames of the source to the system. An unreadable frame is reported, counted and
+// skipped.
+RunStatistics Run(semslam::FrameSource& source,
+                  semslam::System& system,
+                  const RunOptions& options,
+                  ProgressLine& progress);

@@ -11,6 +11,8 @@
 
 #include <sys/resource.h>
 
+#include "printable.h"
+
 namespace {
 
 double Quantile(std::vector<double> values, double fraction) {
@@ -50,7 +52,7 @@ void PrintSemantics(const semslam::System& system, const semslam::PointCloudMapp
               detector.num_submitted, detector.mean_milliseconds);
   if (detector.num_failed > 0) {
     std::printf("images not labelled   %zu: %s\n", detector.num_failed,
-                detector.first_error.c_str());
+                Printable(detector.first_error).c_str());
   }
 }
 
@@ -68,7 +70,8 @@ void PrintSummary(const RunStatistics& run,
     std::printf("late                  %zu frames by more than a frame\n", run.num_late);
   std::printf("tracking time         median %.1f ms, p95 %.1f ms\n",
               Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
-  std::printf("keyframes, landmarks  %zu, %zu\n", status.num_keyframes, status.num_landmarks);
+  std::printf("keyframes             %zu\n", status.num_keyframes);
+  std::printf("landmarks             %zu\n", status.num_landmarks);
   std::printf("map points            %zu, %.1f ms a keyframe\n", map.cloud.size(),
               map.integration_milliseconds);
   std::printf("segments              %zu, in %.0f ms\n", map.segmentation.segments.size(),

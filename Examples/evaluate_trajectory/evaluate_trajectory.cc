@@ -13,6 +13,8 @@
 #include "semslam/eval/trajectory_error.h"
 #include "semslam/io/trajectory_io.h"
 
+#include "printable.h"
+
 namespace {
 
 void PrintText(const semslam::TrajectoryError& error) {
@@ -54,11 +56,15 @@ int main(int argc, char** argv) {
   app.add_option("GROUNDTRUTH", truth_path, "True trajectory: t tx ty tz qx qy qz qw")->required();
   app.add_option("ESTIMATE", estimate_path, "Estimated trajectory, same format")->required();
   app.add_flag("--json", as_json, "Print JSON");
-  app.set_version_flag("--version", SEMSLAM_VERSION);
+  app.set_version_flag("--version", "evaluate_trajectory " SEMSLAM_VERSION);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
+    std::cerr << "evaluate_trajectory: " << Printable(error.what())
+              << " (--help shows the usage)\n";
+    return 1;
   }
   try {
     const semslam::Trajectory truth = semslam::ReadTrajectory(truth_path);
@@ -66,7 +72,7 @@ int main(int argc, char** argv) {
     const semslam::TrajectoryError error = semslam::EvaluateTrajectory(truth, estimate);
     as_json ? PrintJson(error) : PrintText(error);
   } catch (const std::exception& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << '\n';
+    std::cerr << "evaluate_trajectory: " << Printable(error.what()) << '\n';
     return 1;
   }
   return 0;

@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "semslam/base/stopwatch.h"
 #include "semslam/render/clip.h"
 #include "semslam/render/clip_writer.h"
+
+#include "printable.h"
 
 namespace {
 
@@ -82,11 +85,13 @@ int main(int argc, char** argv) {
       app.parse(argc, argv);
     } catch (const CLI::Success& help) {
       return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+      throw std::runtime_error(std::string(error.what()) + " (--help shows the usage)");
     }
     Run(arguments);
     return 0;
   } catch (const std::exception& error) {
-    std::cerr << "render_clip: " << error.what() << '\n';
+    std::cerr << "render_clip: " << Printable(error.what()) << '\n';
     return 1;
   }
 }
