@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -25,7 +27,16 @@ std::string CheckScore(const std::string& text) {
   return is_score ? "" : "expected a number above 0 and up to 1, found " + text;
 }
 
-void AddOptions(CLI::App& app, Arguments& arguments) {
+// Leaves what the descriptions say anyway (required, excludes) out of the help.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = option->get_positional() ? "" : option->get_type_name();
+    return value.empty() ? "" : " " + value;
+  }
+};
+
+void AddPositionals(CLI::App& app, Arguments& arguments) {
   app.add_option("VOCABULARY", arguments.vocabulary,
                  "Visual vocabulary: Vocabulary/orb.voc, or ORB-SLAM2's ORBvoc.txt")
       ->required();
@@ -36,19 +47,27 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
          "ASSOCIATIONS", arguments.associations,
          "File that pairs colour and depth images; - pairs them by nearest time within 20 ms")
       ->required();
-  app.add_option("--output", arguments.output, "Folder for the results (default: here)");
+}
+
+void AddOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("--output", arguments.output, "Folder for the results (default: here)")
+      ->type_name("DIR");
   CLI::Option* network =
-      app.add_option("--network", arguments.network, "Darknet network: CFG WEIGHTS NAMES")
-          ->expected(3);
+      app.add_option("--network", arguments.network, "Darknet network that finds the objects")
+          ->expected(3)
+          ->type_name("CFG WEIGHTS NAMES");
   CLI::Option* detections =
       app.add_option("--detections", arguments.detections,
-                     "Folder of recorded detections, a YOLO text file an image, and classes.names")
+                     "Instead of a network: recorded detections, a YOLO text file an image, and "
+                     "classes.names")
+          ->type_name("DIR")
           ->excludes(network);
-  app.add_option("--classes", arguments.classes,
-                 "Classes to put into the map: cup,keyboard,... (default: all)")
+  app.add_option("--classes", arguments.classes, "Classes to put into the map (default: all)")
+      ->type_name("cup,keyboard,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--score", arguments.score, "Least score of a detection (default: 0.25)")
+      ->type_name("S")
       ->check(CheckScore);
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
@@ -68,6 +87,8 @@ ParseResult ParseArguments(int argc, char** argv) {
       "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
       "rgbd_tum");
   app.set_version_flag("--version", "rgbd_tum " SEMSLAM_VERSION);
+  app.formatter(std::make_shared<HelpFormatter>());
+  AddPositionals(app, result.arguments);
   AddOptions(app, result.arguments);
   app.footer(
       "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "

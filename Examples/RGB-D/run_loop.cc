@@ -71,6 +71,7 @@ RunStatistics Run(semslam::FrameSource& source,
                   const RunOptions& options,
                   ProgressLine& progress) {
   RunStatistics statistics;
+  if (options.keep_frame_times) statistics.num_late = 0;
   Pacer pacer;
   const semslam::Stopwatch total;
   while (true) {
@@ -88,7 +89,7 @@ RunStatistics Run(semslam::FrameSource& source,
     }
     if (!image) break;
     if (options.keep_frame_times && pacer.WaitFor(image->time) > 1.0 / options.fps)
-      ++statistics.num_late;
+      ++*statistics.num_late;
     const semslam::Stopwatch tracking;
     const semslam::Tracking::Result result =
         system.TrackRGBD(std::make_shared<const semslam::RgbdImage>(*std::move(image)));

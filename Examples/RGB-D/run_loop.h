@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct RunStatistics {
   std::size_t num_frames = 0;  // Read, tracked or not.
   std::size_t num_tracked = 0;
   std::size_t num_unreadable = 0;  // Skipped.
-  std::size_t num_late = 0;  // With kept frame times: started more than one frame after it was due.
+  // With kept frame times: how many started more than one frame after they were due.
+  std::optional<std::size_t> num_late;
   std::vector<double> tracking_milliseconds;  // One a frame read.
   double seconds = 0;
   bool interrupted = false;

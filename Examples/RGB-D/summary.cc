@@ -66,8 +66,8 @@ void PrintSummary(const RunStatistics& run,
   std::printf("frames                %zu tracked, %zu lost, %zu unreadable, in %.1f s%s\n",
               run.num_tracked, run.num_lost(), run.num_unreadable, run.seconds,
               run.interrupted ? " (interrupted)" : "");
-  if (run.num_late > 0)
-    std::printf("late                  %zu frames by more than a frame\n", run.num_late);
+  if (run.num_late)
+    std::printf("late by over a frame  %zu of %zu frames\n", *run.num_late, run.num_frames);
   std::printf("tracking time         median %.1f ms, p95 %.1f ms\n",
               Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
   std::printf("keyframes             %zu\n", status.num_keyframes);

@@ -131,8 +131,10 @@ class RunningTest(EndToEndTest):
 
     def test_realtime_takes_the_recorded_time(self):
         start = time.monotonic()
-        self.assert_success(self.map("--realtime", "--no-semantics"))
+        result = self.map("--realtime", "--no-semantics")
+        self.assert_success(result)
         self.assertGreaterEqual(time.monotonic() - start, RECORDED_SECONDS)
+        self.assertRegex(result.stdout, rf"late by over a frame +\d+ of {NUM_FRAMES} frames")
         self.assertEqual(self.assert_whole_files(), NUM_FRAMES)
 
     def test_threads_track_as_well_as_the_sequential_mode(self):
