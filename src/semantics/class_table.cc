@@ -39,8 +39,9 @@ constexpr std::array<KnownClass, 22> kKnownClasses = {{
     {"toothbrush", 0.3}, {"apple", 0.2},     {"orange", 0.2},     {"banana", 0.35},
     {"sportsball", 0.4}, {"clock", 0.6},
 }};
-constexpr std::array<std::string_view, 6> kLargePlanes = {"diningtable", "table", "desk",
-                                                          "bed",         "sofa",  "bench"};
+// A television is as large as a small table; its extent still tells it from a wall.
+constexpr std::array<std::string_view, 7> kLargePlanes = {"diningtable", "table", "desk",     "bed",
+                                                          "sofa",        "bench", "tvmonitor"};
 
 struct NamedColor {
   std::string_view name;

@@ -25,6 +25,27 @@ TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_worl
   return tracked;
 }
 
+// The keyframe, or where it was erased as redundant, the kept one whose view is nearest to its own
+// (a radian counts as a metre). Null if the map was cleared since.
+const Keyframe* NearestKeptKeyframe(const Map& map, KeyframeId id) {
+  if (const Keyframe* keyframe = map.FindKeyframe(id)) return keyframe;
+  const std::optional<Rigid3> T_world_erased = map.ResolvePose(id);
+  if (!T_world_erased) return nullptr;
+  const Keyframe* nearest = nullptr;
+  double least_difference = std::numeric_limits<double>::infinity();
+  for (const KeyframeId candidate : map.KeyframeIds()) {
+    const Keyframe& keyframe = map.keyframe(candidate);
+    const double difference =
+        (keyframe.T_world_camera.translation - T_world_erased->translation).norm() +
+        RotationAngle(keyframe.T_world_camera, *T_world_erased);
+    if (difference < least_difference) {
+      least_difference = difference;
+      nearest = &keyframe;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 void Tracking::Options::Validate() const {
@@ -159,7 +180,7 @@ std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const 
   };
   const std::optional<Reference> reference =
       map_.Read([&](const Map& map) -> std::optional<Reference> {
-        const Keyframe* keyframe = map.FindKeyframe(keyframe_id);
+        const Keyframe* keyframe = NearestKeptKeyframe(map, keyframe_id);
         if (keyframe == nullptr) return std::nullopt;
         Reference copy{keyframe->frame, keyframe->words, keyframe->T_world_camera, {}};
         copy.points.resize(keyframe->landmarks.size());
@@ -197,9 +218,9 @@ std::optional<TrackedFrame> Tracking::FindAgain(const std::shared_ptr<const Fram
   constexpr std::size_t kNumCandidates = 4;
   std::vector<KeyframeId> candidates = map_.Read([&](const Map& map) {
     std::vector<KeyframeId> ids;
-    if (map.FindKeyframe(last_reference_) != nullptr) {
-      ids = map.CovisibleKeyframes(last_reference_, 1, kNumCandidates);
-      ids.insert(ids.begin(), last_reference_);
+    if (const Keyframe* reference = NearestKeptKeyframe(map, last_reference_)) {
+      ids = map.CovisibleKeyframes(reference->id, 1, kNumCandidates);
+      ids.insert(ids.begin(), reference->id);
     }
     return ids;
   });

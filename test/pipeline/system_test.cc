@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/pipeline/system.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/wall_camera.h"
+#include "support/label_detector.h"
+#include "support/matchers.h"
+
+namespace semslam {
+namespace {
+
+using testing::RecordedClip;
+using testing::Rigid3Near;
+using testing::WallCamera;
+
+struct Outcome {
+  std::vector<System::TrackedPose> camera;
+  std::vector<System::TrackedPose> keyframes;
+  PointCloudMapping::Result map;
+};
+
+class RenderedDesk : public ::testing::Test {
+ protected:
+  static constexpr int kNumFrames = 16;
+
+  static const RecordedClip& Clip() {
+    static const RecordedClip clip([] {
+      RenderedClip::Options options;
+      options.num_frames = kNumFrames;
+      options.fps = 15;
+      options.camera = {
+          .width = 320, .height = 240, .fx = 262, .fy = 262, .cx = 159.5, .cy = 119.5};
+      return options;
+    }());
+    return clip;
+  }
+  static Settings MakeSettings() {
+    Settings settings;
+    settings.camera = Clip().clip().options().camera;
+    settings.bf = 20;
+    settings.orb.num_features = 500;
+    settings.tracking.min_features_to_start = 150;
+    settings.tracking.keyframes.changed_ratio = 0.9;
+    settings.tracking.keyframes.changed_ratio_at_start = 0.9;
+    return settings;
+  }
+  static std::shared_ptr<const Vocabulary> Words() {
+    static const auto vocabulary = [] {
+      const Settings settings = MakeSettings();
+      const FrameBuilder builder(settings.orb, PinholeCamera(settings.camera), settings.bf);
+      std::vector<std::vector<Descriptor>> images;
+      for (const std::size_t i : {0, 5, 10, 15}) {
+        images.push_back(builder.Build(*Clip().images()[i]).descriptors);
+      }
+      return std::make_shared<const Vocabulary>(
+          TrainVocabulary(images, {.branching = 8, .depth = 3, .max_iterations = 4}, 1));
+    }();
+    return vocabulary;
+  }
+  static Outcome RunAll(Threading threading) {
+    System system(MakeSettings(), Words(),
+                  {.threading = threading, .detector = Clip().MakeDetector(), .log = {}});
+    for (const RgbdImagePtr& image : Clip().images()) {
+      EXPECT_EQ(system.TrackRGBD(image).state, TrackingState::kTracking) << image->time;
+    }
+    Outcome run;
+    run.map = system.Shutdown();
+    run.camera = system.CameraTrajectory();
+    run.keyframes = system.KeyframeTrajectory();
+    return run;
+  }
+};
+
+void ExpectSameBits(const std::vector<System::TrackedPose>& a,
+                    const std::vector<System::TrackedPose>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].time, b[i].time);
+    EXPECT_EQ(a[i].T_world_camera.ToMatrix(), b[i].T_world_camera.ToMatrix()) << "pose " << i;
+  }
+}
+
+TEST_F(RenderedDesk, GivesTheSameBitsTwiceWhenInline) {
+  const Outcome first = RunAll(Threading::kInline);
+  const Outcome second = RunAll(Threading::kInline);
+  EXPECT_EQ(first.camera.size(), static_cast<std::size_t>(kNumFrames));
+  EXPECT_GT(first.keyframes.size(), 1u);
+  ExpectSameBits(first.camera, second.camera);
+  ExpectSameBits(first.keyframes, second.keyframes);
+  EXPECT_GT(first.map.cloud.size(), 1000u);
+  EXPECT_EQ(first.map.cloud.positions, second.map.cloud.positions);
+  EXPECT_EQ(first.map.cloud.colors, second.map.cloud.colors);
+  EXPECT_EQ(first.map.segmentation.segment_of_point, second.map.segmentation.segment_of_point);
+  EXPECT_EQ(first.map.semantics.class_of_point, second.map.semantics.class_of_point);
+  EXPECT_EQ(first.map.semantics.object_of_point, second.map.semantics.object_of_point);
+  EXPECT_EQ(first.map.semantics.confidence_of_point, second.map.semantics.confidence_of_point);
+  ASSERT_EQ(first.map.semantics.objects.size(), second.map.semantics.objects.size());
+}
+
+TEST_F(RenderedDesk, IsTrackedAlikeByThreadsOfTheirOwn) {
+  const Outcome run = RunAll(Threading::kWorkers);
+  ASSERT_EQ(run.camera.size(), static_cast<std::size_t>(kNumFrames));
+  const Rigid3 T_first_world = Clip().clip().T_world_camera(0).Inverse();
+  for (std::size_t i = 0; i < run.camera.size(); ++i) {
+    EXPECT_THAT(run.camera[i].T_world_camera,
+                Rigid3Near(T_first_world * Clip().clip().T_world_camera(i), 0.02, 0.02))
+        << "frame " << i;
+  }
+  EXPECT_GT(run.map.cloud.size(), 1000u);
+}
+
+class SystemTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<System> MakeSystem() const {
+    return std::make_unique<System>(
+        WallCamera::MakeSettings(), wall_.Train(),
+        System::Options{.threading = Threading::kInline, .detector = nullptr, .log = log_});
+  }
+  WallCamera wall_{40};
+  LogSink log_;
+};
+
+TEST_F(SystemTest, WithoutFramesTheMapIsEmpty) {
+  const auto system = MakeSystem();
+  EXPECT_EQ(system->Shutdown().cloud.size(), 0u);
+  EXPECT_TRUE(system->CameraTrajectory().empty());
+  EXPECT_TRUE(system->KeyframeTrajectory().empty());
+}
+
+TEST_F(SystemTest, TracksAndMapsAWall) {
+  const auto system = MakeSystem();
+  for (int i = 0; i < 30; ++i) {
+    const Tracking::Result result = system->TrackRGBD(wall_.Image(i));
+    ASSERT_EQ(result.state, TrackingState::kTracking) << "frame " << i;
+    ASSERT_THAT(
+        result.T_world_camera,
+        Rigid3Near(Rigid3{Eigen::Quaterniond::Identity(), WallCamera::Position(i)}, 0.02, 0.03))
+        << "frame " << i;
+  }
+  const System::Status status = system->status();
+  EXPECT_GT(status.num_keyframes, 1u);
+  EXPECT_GT(status.num_landmarks, 100u);
+  EXPECT_GT(status.num_voxels, 100u);
+  EXPECT_EQ(status.mapping_queue + status.dense_queue + status.detector_queue, 0u);
+  EXPECT_FALSE(system->has_detector());
+  const PointCloudMapping::Result map = system->Shutdown();
+  for (const Eigen::Vector3f& p : map.cloud.positions) EXPECT_NEAR(p.z(), WallCamera::kDepth, 0.05);
+  EXPECT_EQ(system->CameraTrajectory().size(), 30u);
+}
+
+TEST_F(SystemTest, AMapThatWasStartedOverHasTheNewPosesOnly) {
+  std::vector<std::string> lines;
+  log_ = [&](LogLevel, std::string_view, std::string_view line) { lines.emplace_back(line); };
+  const auto system = MakeSystem();
+  for (int i = 0; i < 3; ++i) system->TrackRGBD(wall_.Image(i));
+  EXPECT_TRUE(system->TrackRGBD(WallCamera::Blank(3)).map_was_reset);
+  EXPECT_EQ(lines.size(), 1u);
+  for (int i = 4; i < 8; ++i) system->TrackRGBD(wall_.Image(i));
+  const PointCloudMapping::Result map = system->Shutdown();
+  const std::vector<System::TrackedPose> trajectory = system->CameraTrajectory();
+  ASSERT_EQ(trajectory.size(), 4u);
+  EXPECT_EQ(trajectory.front().time, wall_.Image(4)->time);
+  EXPECT_GT(map.cloud.size(), 100u);
+  float min_x = 0;
+  for (const Eigen::Vector3f& p : map.cloud.positions) min_x = std::min(min_x, p.x());
+  EXPECT_GT(min_x, -0.9F) << "points of the old map lie where the new one has none";
+}
+
+TEST_F(SystemTest, RefusesImagesThatAreNotTheCameras) {
+  const auto system = MakeSystem();
+  EXPECT_THROW(system->TrackRGBD(nullptr), std::logic_error);
+  auto image = std::make_shared<RgbdImage>(*wall_.Image(0));
+  image->color = cv::Mat(10, 10, CV_8UC3, cv::Scalar(0));
+  EXPECT_THROW(system->TrackRGBD(image), std::logic_error);
+  *image = *wall_.Image(0);
+  image->depth = cv::Mat(WallCamera::kHeight, WallCamera::kWidth, CV_16UC1, cv::Scalar(0));
+  EXPECT_THROW(system->TrackRGBD(image), std::logic_error);
+  EXPECT_EQ(system->TrackRGBD(wall_.Image(0)).state, TrackingState::kTracking) << "it goes on";
+}
+
+}  // namespace
+}  // namespace semslam

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// System with all its threads; the thread sanitizer looks on.
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "semslam/pipeline/system.h"
+
+#include "pipeline/wall_camera.h"
+
+namespace semslam {
+namespace {
+
+using testing::WallCamera;
+
+// Sees the same thing everywhere, or fails everywhere.
+class FakeDetector : public Detector {
+ public:
+  explicit FakeDetector(bool fails) : fails_(fails) {}
+  std::vector<Detection> Detect(const RgbdImage& image) override {
+    if (fails_) throw std::runtime_error("the network is down");
+    Detection detection;
+    detection.class_id = 0;
+    detection.score = 0.9F;
+    detection.box = {10, 10, static_cast<float>(image.color.cols) / 2, 100};
+    detection.class_scores = {0.9F};
+    return {detection};
+  }
+  const ClassTable& classes() const override { return classes_; }
+
+ private:
+  bool fails_;
+  ClassTable classes_{{"book"}};
+};
+
+class SystemThreads : public ::testing::Test {
+ protected:
+  std::unique_ptr<System> MakeSystem(std::unique_ptr<Detector> detector = nullptr) const {
+    System::Options options;
+    options.detector = std::move(detector);
+    return std::make_unique<System>(WallCamera::MakeSettings(), vocabulary_, std::move(options));
+  }
+
+  WallCamera wall_{40};
+  std::shared_ptr<const Vocabulary> vocabulary_ = wall_.Train();
+};
+
+TEST_F(SystemThreads, TrackAndMapAWallTogether) {
+  const auto system = MakeSystem(std::make_unique<FakeDetector>(false));
+  for (int i = 0; i < 25; ++i) {
+    ASSERT_EQ(system->TrackRGBD(wall_.Image(i)).state, TrackingState::kTracking) << "frame " << i;
+    system->status();
+    system->CameraTrajectory();
+  }
+  const PointCloudMapping::Result map = system->Shutdown();
+  EXPECT_GT(map.cloud.size(), 100u);
+  const std::vector<System::TrackedPose> trajectory = system->CameraTrajectory();
+  ASSERT_EQ(trajectory.size(), 25u);
+  for (int i = 0; i < 25; ++i) {
+    EXPECT_LT((trajectory[i].T_world_camera.translation - WallCamera::Position(i)).norm(), 0.03);
+  }
+  const DetectorThread::Statistics statistics = system->detector_statistics();
+  EXPECT_GT(statistics.num_done, 0u);
+  EXPECT_EQ(statistics.num_done, statistics.num_submitted) << "none is left behind";
+}
+
+TEST_F(SystemThreads, StopInAnyState) {
+  for (int cycle = 0; cycle < 20; ++cycle) {
+    const auto system =
+        MakeSystem(cycle % 2 == 0 ? std::make_unique<FakeDetector>(false) : nullptr);
+    const int num_frames = cycle % 5 == 4 ? 12 : cycle % 5;
+    for (int i = 0; i < num_frames; ++i) system->TrackRGBD(wall_.Image(i));
+    if (cycle % 3 == 0) system->Shutdown();  // Else it is left with what is queued.
+  }
+}
+
+TEST_F(SystemThreads, ADetectorThatFailsCostsLabelsOnly) {
+  const auto system = MakeSystem(std::make_unique<FakeDetector>(true));
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(system->TrackRGBD(wall_.Image(i)).state, TrackingState::kTracking);
+  }
+  const PointCloudMapping::Result map = system->Shutdown();
+  EXPECT_GT(map.cloud.size(), 100u);
+  EXPECT_TRUE(map.semantics.objects.empty());
+  const DetectorThread::Statistics statistics = system->detector_statistics();
+  EXPECT_GT(statistics.num_failed, 0u);
+  EXPECT_EQ(statistics.num_failed, statistics.num_submitted);
+  EXPECT_EQ(statistics.first_error, "the network is down");
+}
+
+TEST_F(SystemThreads, StartOverWhileKeyframesOfTheOldMapAreQueued) {
+  const auto system = MakeSystem(std::make_unique<FakeDetector>(false));
+  int number = 0;
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 4; ++i) system->TrackRGBD(wall_.Image(number++));
+    system->TrackRGBD(WallCamera::Blank(number++));
+  }
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(system->TrackRGBD(wall_.Image(number++)).state, TrackingState::kTracking);
+  }
+  EXPECT_GT(system->Shutdown().cloud.size(), 100u);
+}
+
+}  // namespace
+}  // namespace semslam
