@@ -27,7 +27,9 @@ struct PcdHeader {
   std::size_t PointSize() const;  // Bytes.
 };
 
-// Parses the header of a PCD file; `name` stands in the messages of InputError.
+// Parses the header of a PCD file (PCL's own reader crashes on an empty file, on noise and on
+// negative sizes, and asks for the memory of any number of points); `name` stands in the messages
+// of InputError.
 PcdHeader ParsePcdHeader(const std::string& name, std::string_view bytes);
 
 }  // namespace semslam

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <pcl/io/lzf.h>
+
 #include "semslam/base/error.h"
 #include "semslam/io/cloud_io.h"
 
-#include "io/lzf.h"
 #include "io/pcd_header.h"
 #include "io/text_file.h"
 
@@ -116,17 +116,23 @@ std::string ParseAscii(const std::string& name, const PcdHeader& header, std::st
 std::string Decompress(const std::string& name, const PcdHeader& header, std::string_view bytes) {
   constexpr std::size_t kSizes = 2 * sizeof(std::uint32_t);
   if (bytes.size() < kSizes) FailTruncated(name, header);
-  const std::size_t compressed_size = Load<std::uint32_t>(bytes.data());
-  const std::size_t size = Load<std::uint32_t>(bytes.data() + sizeof(std::uint32_t));
+  const auto compressed_size = Load<std::uint32_t>(bytes.data());
+  const auto size = Load<std::uint32_t>(bytes.data() + sizeof(std::uint32_t));
   if (bytes.size() - kSizes < compressed_size) FailTruncated(name, header);
   if (size != header.num_points * header.PointSize()) {
     throw InputError(name + ": PCD file is damaged: the header says " +
                      std::to_string(header.num_points * header.PointSize()) + " bytes, the data " +
                      std::to_string(size));
   }
-  std::optional<std::string> result = DecompressLzf(bytes.substr(kSizes, compressed_size), size);
-  if (!result) throw InputError(name + ": PCD file is damaged: cannot be decompressed");
-  return *std::move(result);
+  if (size == 0) return "";  // PCL would read a byte that is not there.
+  // Code grows to 88 times its size at most: no memory is asked for that it cannot fill.
+  constexpr std::size_t kMaxGrowth = 88;
+  std::string result(size <= kMaxGrowth * compressed_size ? size : 0, '\0');
+  if (result.size() != size ||
+      pcl::lzfDecompress(bytes.data() + kSizes, compressed_size, result.data(), size) != size) {
+    throw InputError(name + ": PCD file is damaged: cannot be decompressed");
+  }
+  return result;
 }
 
 // The fields of a file whose values are uncompressed in `bytes`: point by point, or field by field.

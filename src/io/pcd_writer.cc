@@ -1,24 +1,28 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/PCLPointField.h>
+#include <pcl/io/pcd_io.h>
 
 #include "semslam/base/error.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/cloud_io.h"
 
 #include "io/cloud_columns.h"
-#include "io/lzf.h"
 
 namespace semslam {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCD files are little-endian");
+
+constexpr std::uint32_t kValueSize = 4;  // Bytes of every value that we write.
 
 std::vector<CloudColumn> PcdColumns(const CloudView& cloud) {
   std::vector<CloudColumn> columns = PositionColumns();
@@ -30,41 +34,47 @@ std::vector<CloudColumn> PcdColumns(const CloudView& cloud) {
   return columns;
 }
 
-std::string PcdHeader(const std::vector<CloudColumn>& columns, std::size_t num_points) {
-  std::string fields = "FIELDS";
-  std::string sizes = "SIZE";
-  std::string types = "TYPE";
-  std::string counts = "COUNT";
-  for (const CloudColumn& column : columns) {
-    fields += ' ' + column.name;
-    sizes += " 4";
-    types += std::string(" ") + column.type;
-    counts += " 1";
-  }
-  const std::string count = std::to_string(num_points);
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + '\n' + sizes +
-         '\n' + types + '\n' + counts + "\nWIDTH " + count +
-         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary_compressed\n";
+// PCL compresses into a buffer of 3/2 the size, which it counts in 32 bits.
+bool FitsIntoPcd(std::size_t num_bytes) {
+  return num_bytes <= std::numeric_limits<std::uint32_t>::max() / 3 * 2;
 }
 
-// All of a column, then all of the next, as the compressed form wants it.
-std::string ColumnBytes(const CloudView& cloud, const std::vector<CloudColumn>& columns) {
-  std::string bytes(4 * columns.size() * cloud.positions.size(), '\0');
-  char* output = bytes.data();
+pcl::PCLPointCloud2 ToPcl(const CloudView& cloud, const std::vector<CloudColumn>& columns) {
+  const std::size_t num_points = cloud.positions.size();
+  pcl::PCLPointCloud2 result;
   for (const CloudColumn& column : columns) {
-    for (std::size_t point = 0; point < cloud.positions.size(); ++point) {
+    pcl::PCLPointField field;
+    field.name = column.name;
+    field.offset = kValueSize * static_cast<std::uint32_t>(result.fields.size());
+    field.datatype = column.type == 'F' ? pcl::PCLPointField::FLOAT32 : pcl::PCLPointField::UINT32;
+    field.count = 1;
+    result.fields.push_back(field);
+  }
+  result.width = static_cast<std::uint32_t>(num_points);
+  result.height = 1;
+  result.point_step = kValueSize * static_cast<std::uint32_t>(columns.size());
+  result.row_step = result.point_step * result.width;
+  result.data.resize(std::size_t{result.point_step} * num_points);
+  auto* output = reinterpret_cast<char*>(result.data.data());
+  for (std::size_t point = 0; point < num_points; ++point) {
+    for (const CloudColumn& column : columns) {
       column.write(cloud, point, output);
-      output += 4;
+      output += kValueSize;
     }
   }
-  return bytes;
+  return result;
 }
 
-std::string SizeBytes(std::size_t size) {
-  const auto value = static_cast<std::uint32_t>(size);
-  std::string bytes(sizeof(value), '\0');
-  std::memcpy(bytes.data(), &value, sizeof(value));
-  return bytes;
+// Without points PCL writes the same, but with a warning to the terminal.
+int WriteCompressed(const pcl::PCLPointCloud2& cloud, std::ostream& output) {
+  pcl::PCDWriter writer;
+  if (!cloud.data.empty()) return writer.writeBinaryCompressed(output, cloud);
+  const int result = writer.generateHeaderBinaryCompressed(output, cloud, Eigen::Vector4f::Zero(),
+                                                           Eigen::Quaternionf::Identity());
+  output << "DATA binary_compressed\n";
+  constexpr char kNoBytesOfNone[2 * sizeof(std::uint32_t)] = {};
+  output.write(kNoBytesOfNone, sizeof(kNoBytesOfNone));
+  return result;
 }
 
 }  // namespace
@@ -72,18 +82,14 @@ std::string SizeBytes(std::size_t size) {
 void WritePcd(const std::filesystem::path& path, const CloudView& cloud) {
   CheckLengths(cloud);
   const std::vector<CloudColumn> columns = PcdColumns(cloud);
-  const std::string bytes = ColumnBytes(cloud, columns);
-  const std::string compressed = CompressLzf(bytes);
-  if (std::max(bytes.size(), compressed.size()) > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError(path.string() + ": cannot write: a PCD file holds at most 4 GB, found " +
-                     std::to_string(cloud.positions.size()) + " points");
+  std::ostringstream bytes;
+  if (!FitsIntoPcd(kValueSize * columns.size() * cloud.positions.size()) ||
+      WriteCompressed(ToPcl(cloud, columns), bytes) != 0 || !bytes) {
+    throw InputError(path.string() + ": cannot write: PCL cannot compress " +
+                     std::to_string(cloud.positions.size()) + " points of " +
+                     std::to_string(kValueSize * columns.size()) + " bytes");
   }
-  AtomicFile file(path);
-  file.Write(PcdHeader(columns, cloud.positions.size()));
-  file.Write(SizeBytes(compressed.size()));
-  file.Write(SizeBytes(bytes.size()));
-  file.Write(compressed);
-  file.Commit();
+  WriteFileAtomically(path, bytes.view());
 }
 
 }  // namespace semslam
