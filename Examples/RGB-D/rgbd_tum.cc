@@ -108,7 +108,9 @@ int MapSequence(const Arguments& arguments) {
   semslam::System system(settings, std::move(vocabulary), std::move(options));
   const RunStatistics run = RunSequence(arguments, settings.fps, sequence, system, progress);
   progress.ShowStep(RemainingSteps(system.status()));
-  const semslam::PointCloudMapping::Result map = system.Shutdown();
+  const semslam::PointCloudMapping::Result map =
+      system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
+                                      : semslam::System::PendingLabels::kFinish);
   const std::string error = WriteResults(arguments.output, system, map);
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);

@@ -99,6 +99,7 @@ RunStatistics Run(semslam::FrameSource& source,
         system.TrackRGBD(std::make_shared<const semslam::RgbdImage>(*std::move(image)));
     statistics.tracking_milliseconds.push_back(tracking.Milliseconds());
     ++statistics.num_frames;
+    if (result.map_was_reset) statistics.num_tracked = 0;  // Their poses went with the map.
     if (result.state == semslam::TrackingState::kTracking) ++statistics.num_tracked;
     if (!progress.is_due()) continue;
     const std::size_t frame = statistics.num_frames + statistics.num_unreadable;

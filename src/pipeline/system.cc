@@ -98,9 +98,11 @@ void System::MapKeyframe(const KeyframeJob& job) {
   if (detector_) detector_->Submit(job.keyframe, job.image);
 }
 
-PointCloudMapping::Result System::Shutdown() {
+PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   mapping_stage_.Finish();
-  if (detector_) detector_->Finish();
+  if (detector_) {
+    pending == PendingLabels::kDrop ? detector_->Cancel() : detector_->Finish();
+  }
   return point_cloud_mapping_.Finish();
 }
 

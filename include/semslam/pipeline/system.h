@@ -32,9 +32,10 @@ namespace semslam {
 // bytes).
 //
 //   System system(settings, vocabulary, {});
-//   while (auto image = source.Next()) system.TrackRGBD(std::make_shared<const
-//   RgbdImage>(*std::move(image))); const PointCloudMapping::Result map = system.Shutdown();
-//   WriteTrajectory("CameraTrajectory.txt", system.CameraTrajectory());
+//   while (auto image = source.Next()) {
+//     system.TrackRGBD(std::make_shared<const RgbdImage>(*std::move(image)));
+//   }
+//   const PointCloudMapping::Result map = system.Shutdown();
 //
 // TrackRGBD and Shutdown belong to one thread; the const methods may be called from any.
 class System {
@@ -70,10 +71,13 @@ class System {
   // Rethrows what a thread threw.
   Tracking::Result TrackRGBD(const RgbdImagePtr& image);
 
-  // Lets every thread finish what is queued, and returns the final dense, segmented and labelled
-  // map. Call it once; the trajectories stay available. Without it, the destructor ends the threads
-  // and drops what is queued.
-  PointCloudMapping::Result Shutdown();
+  // Images that still wait for the detector when the run ends.
+  enum class PendingLabels { kFinish, kDrop };
+
+  // Lets every thread finish what is queued (kDrop: but the detector only the image in hand), and
+  // returns the final dense, segmented and labelled map. Call it once; the trajectories stay
+  // available. Without it, the destructor ends the threads and drops what is queued.
+  PointCloudMapping::Result Shutdown(PendingLabels pending = PendingLabels::kFinish);
 
   // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
   std::vector<TrackedPose> CameraTrajectory() const;
