@@ -15,7 +15,10 @@ DetectorThread::DetectorThread(Threading threading, std::unique_ptr<Detector> de
     : detector_(std::move(detector)),
       sink_(std::move(sink)),
       // Never full in practice: a keyframe's colour image is 0.9 MB, so memory would run out first.
-      stage_({.threading = threading, .queue_capacity = 4096, .order = QueueOrder::kNewestFirst},
+      stage_({.threading = threading,
+              .queue_capacity = 4096,
+              .order = QueueOrder::kNewestFirst,
+              .is_background = true},
              [this](Job job) { Process(std::move(job)); }) {
   SEMSLAM_CHECK(detector_ != nullptr);
 }

@@ -26,8 +26,9 @@ PointCloudMapping::PointCloudMapping(Threading threading,
       classes_(std::move(classes)),
       pose_lookup_(std::move(pose_lookup)),
       voxel_map_(options.voxels),
-      stage_({.threading = threading, .queue_capacity = options.queue_capacity},
-             [this](Job job) { Process(std::move(job)); }) {
+      stage_(
+          {.threading = threading, .queue_capacity = options.queue_capacity, .is_background = true},
+          [this](Job job) { Process(std::move(job)); }) {
   options_.Validate();
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "semslam/base/bounded_queue.h"
+#include "semslam/base/thread_priority.h"
 
 namespace semslam {
 
@@ -28,12 +29,16 @@ class Stage {
     Threading threading = Threading::kWorkers;
     std::size_t queue_capacity = 16;
     QueueOrder order = QueueOrder::kOldestFirst;
+    bool is_background = false;  // Its thread yields to others when cores are scarce.
   };
 
   Stage(Options options, std::function<void(Input)> process)
       : process_(std::move(process)), queue_(options.queue_capacity, options.order) {
     if (options.threading == Threading::kWorkers) {
-      worker_.emplace([this](std::stop_token stop) { Run(stop); });
+      worker_.emplace([this, options](std::stop_token stop) {
+        if (options.is_background) YieldToOtherThreads();
+        Run(stop);
+      });
     }
   }
   Stage(const Stage&) = delete;
