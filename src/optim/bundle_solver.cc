@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optim/bundle_solver.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "semslam/base/parallel.h"
 
 #include "optim/huber.h"
-#include "optim/pose_normal_equations.h"
 
 namespace semslam::internal {
 namespace {
 
-constexpr std::size_t kPointsPerChunk = 256;
+// The points are summed up in so many parts, which is also the most threads that can help. A part
+// has a reduced system of its own, so small problems are not cut.
+constexpr int kMaxParts = 4;
+constexpr int kMinPointsPerPart = 250;
 
 std::vector<Eigen::Matrix3d> Rotations(const std::vector<Rigid3>& poses) {
   std::vector<Eigen::Matrix3d> rotations;
@@ -21,16 +25,27 @@ std::vector<Eigen::Matrix3d> Rotations(const std::vector<Rigid3>& poses) {
   return rotations;
 }
 
-// The lower Cholesky factor of a symmetric 3x3 matrix. The caller's damping keeps it definite.
-Eigen::Matrix3d CholeskyFactor(const Eigen::Matrix3d& m) {
-  Eigen::Matrix3d l = Eigen::Matrix3d::Zero();
-  l(0, 0) = std::sqrt(m(0, 0));
-  l(1, 0) = m(1, 0) / l(0, 0);
-  l(2, 0) = m(2, 0) / l(0, 0);
-  l(1, 1) = std::sqrt(m(1, 1) - l(1, 0) * l(1, 0));
-  l(2, 1) = (m(2, 1) - l(2, 0) * l(1, 0)) / l(1, 1);
-  l(2, 2) = std::sqrt(m(2, 2) - l(2, 0) * l(2, 0) - l(2, 1) * l(2, 1));
-  return l;
+// The inverse of the lower Cholesky factor of a symmetric 3x3 matrix, which the caller's damping
+// keeps definite; not finite otherwise.
+Eigen::Matrix3d InverseCholeskyFactor(const Eigen::Matrix3d& m) {
+  const double i00 = 1.0 / std::sqrt(m(0, 0));
+  const double l10 = m(1, 0) * i00;
+  const double l20 = m(2, 0) * i00;
+  const double i11 = 1.0 / std::sqrt(m(1, 1) - l10 * l10);
+  const double l21 = (m(2, 1) - l20 * l10) * i11;
+  const double i22 = 1.0 / std::sqrt(m(2, 2) - l20 * l20 - l21 * l21);
+  const double i10 = -l10 * i00 * i11;
+  Eigen::Matrix3d inverse;
+  inverse << i00, 0, 0, i10, i11, 0, -(l20 * i00 + l21 * i10) * i22, -l21 * i11 * i22, i22;
+  return inverse;
+}
+
+// sum += a * b^T, in an order that keeps a in registers.
+void AddProduct(const Matrix63d& a, const Matrix63d& b, Matrix6d* sum) {
+  const Vector6d a0 = a.col(0);
+  const Vector6d a1 = a.col(1);
+  const Vector6d a2 = a.col(2);
+  for (int c = 0; c < 6; ++c) sum->col(c) += a0 * b(c, 0) + a1 * b(c, 1) + a2 * b(c, 2);
 }
 
 }  // namespace
@@ -43,9 +58,9 @@ BundleSolver::BundleSolver(const StereoCamera& camera,
       index_(index),
       robust_(robust),
       num_threads_(num_threads),
-      terms_(index.slots.size()),
       v_(index.slots.size()),
       factors_(index.num_points()),
+      parts_(std::clamp(index.num_points() / kMinPointsPerPart, 1, kMaxParts)),
       system_(index),
       pose_gradient_(6 * index.num_free_poses()),
       pose_damping_(6 * index.num_free_poses()) {}
@@ -63,35 +78,35 @@ double BundleSolver::Cost(const BundleState& state) const {
   return cost;
 }
 
-void BundleSolver::EliminatePoint(const BundleState& state,
+// B, C', W (in the place of V) and the gradients of one point.
+void BundleSolver::LinearizePoint(const BundleState& state,
                                   const std::vector<Eigen::Matrix3d>& R_world_camera,
                                   const Damping& damping,
-                                  int point) {
-  const int first = index_.first_slot_of_point[point];
+                                  int point,
+                                  Part* part) {
   const int first_free = index_.first_free_slot_of_point[point];
   const int end = index_.first_slot_of_point[point + 1];
   PointFactor& factor = factors_[point];
   factor.valid = false;
   factor.gradient.setZero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  for (int s = first; s < end; ++s) {
+  for (int s = index_.first_slot_of_point[point]; s < end; ++s) {
     const BundleIndex::Slot& slot = index_.slots[s];
     const Eigen::Matrix3d& rotation = R_world_camera[slot.pose];
     const Eigen::Vector3d p_camera =
         rotation.transpose() * (state.p_world[point] - state.T_world_camera[slot.pose].translation);
-    ReprojectionTerm& term = terms_[s];
     if (!IsInFront(p_camera)) {
-      term = ReprojectionTerm{};
       v_[s].setZero();
       continue;
     }
     factor.valid = true;
-    term = LinearizeReprojection(camera_, p_camera, slot.image);
+    ReprojectionTerm term = LinearizeReprojection(camera_, p_camera, slot.image);
     if (robust_ && term.chi2 > slot.limit) term.Scale(Huber(term.chi2, slot.limit).weight);
     const Eigen::Matrix3d information_world = term.Information() * rotation.transpose();
     hessian.noalias() += rotation * information_world;
     factor.gradient.noalias() += rotation * term.gradient;
     if (s < first_free) continue;
+    part->equations[slot.free_pose].Add(term);
     for (int c = 0; c < 3; ++c) {
       v_[s].col(c).head<3>() = information_world.col(c).cross(p_camera);
     }
@@ -100,85 +115,103 @@ void BundleSolver::EliminatePoint(const BundleState& state,
   if (!factor.valid) return;
   for (int i = 0; i < 3; ++i) factor.damping[i] = damping.Of(hessian(i, i));
   hessian.diagonal() += factor.damping;
-  factor.lower = CholeskyFactor(hessian);
-  const Eigen::Matrix3d inverse_lower =
-      factor.lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
-  factor.forward = inverse_lower * factor.gradient;
-  for (int s = first_free; s < end; ++s) v_[s] = v_[s] * inverse_lower.transpose();
+  factor.inverse_lower = InverseCholeskyFactor(hessian);
+  factor.forward = factor.inverse_lower * factor.gradient;
+  for (int s = first_free; s < end; ++s) v_[s] = v_[s] * factor.inverse_lower.transpose();
 }
 
-void BundleSolver::ReducePose(const Damping& damping, int free_pose) {
-  system_.SetRowToZero(free_pose);
-  PoseNormalEquations equations;
-  Vector6d reduction = Vector6d::Zero();
-  const int end = index_.first_of_free_pose[free_pose + 1];
-  for (int i = index_.first_of_free_pose[free_pose]; i < end; ++i) {
-    const int s = index_.slots_of_free_pose[i];
-    const int point = index_.slots[s].point;
-    equations.Add(terms_[s]);
-    if (!factors_[point].valid) continue;
-    reduction.noalias() += v_[s] * factors_[point].forward;
-    const int end_of_point = index_.first_slot_of_point[point + 1];
-    for (int other = s; other < end_of_point; ++other) {
-      const int other_pose = index_.slots[other].free_pose;
-      Matrix6d& block = system_.Block(free_pose, other_pose);
-      block.noalias() -= v_[s].lazyProduct(v_[other].transpose());
-      if (other_pose == free_pose && other != s) {  // A pose that saw the point twice.
-        block.noalias() -= v_[other].lazyProduct(v_[s].transpose());
-      }
+// V V' and V v of one point.
+void BundleSolver::ReducePoint(int point, Part* part) const {
+  if (!factors_[point].valid) return;
+  const int end = index_.first_slot_of_point[point + 1];
+  for (int a = index_.first_free_slot_of_point[point]; a < end; ++a) {
+    const int pose_a = index_.slots[a].free_pose;
+    part->right_reduction[pose_a].noalias() += v_[a] * factors_[point].forward;
+    for (int b = a; b < end; ++b) {
+      const int pose_b = index_.slots[b].free_pose;
+      Matrix6d* block = &part->reduction[system_.BlockNumber(pose_a, pose_b)];
+      AddProduct(v_[a], v_[b], block);
+      // A pose that saw the point twice.
+      if (pose_a == pose_b && a != b) AddProduct(v_[b], v_[a], block);
     }
   }
-  Matrix6d hessian = equations.Hessian();
-  for (int i = 0; i < 6; ++i) {
-    pose_damping_[6 * free_pose + i] = damping.Of(hessian(i, i));
-    hessian(i, i) += pose_damping_[6 * free_pose + i];
-  }
-  const Vector6d gradient = equations.Gradient();
-  pose_gradient_.segment<6>(6 * free_pose) = gradient;
-  system_.Block(free_pose, free_pose) += hessian;
-  system_.right_side().segment<6>(6 * free_pose) = gradient - reduction;
 }
 
-Eigen::Vector3d BundleSolver::BackSubstitute(const Eigen::VectorXd& pose_step, int point) const {
-  const PointFactor& factor = factors_[point];
-  if (!factor.valid) return Eigen::Vector3d::Zero();
-  Eigen::Vector3d right_side = factor.forward;
-  const int end = index_.first_slot_of_point[point + 1];
-  for (int s = index_.first_free_slot_of_point[point]; s < end; ++s) {
-    right_side.noalias() += v_[s].transpose() * pose_step.segment<6>(6 * index_.slots[s].free_pose);
+void BundleSolver::BuildPart(const BundleState& state,
+                             const std::vector<Eigen::Matrix3d>& R_world_camera,
+                             const Damping& damping,
+                             int part_number) {
+  Part& part = parts_[part_number];
+  part.equations.assign(system_.num_poses(), {});
+  part.reduction.assign(system_.num_blocks(), Matrix6d::Zero());
+  part.right_reduction.assign(system_.num_poses(), Vector6d::Zero());
+  const std::size_t num_points = factors_.size();
+  const auto end = static_cast<int>(num_points * (part_number + 1) / parts_.size());
+  for (auto point = static_cast<int>(num_points * part_number / parts_.size()); point < end;
+       ++point) {
+    LinearizePoint(state, R_world_camera, damping, point, &part);
+    ReducePoint(point, &part);
   }
-  return -factor.lower.transpose().triangularView<Eigen::Upper>().solve(right_side);
+}
+
+void BundleSolver::SumParts(const Damping& damping) {
+  std::vector<Matrix6d>& blocks = system_.blocks();
+  for (Matrix6d& block : blocks) block.setZero();
+  pose_gradient_.setZero();
+  system_.right_side().setZero();
+  for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i] -= part.reduction[i];
+  }
+  for (int pose = 0; pose < system_.num_poses(); ++pose) {
+    Matrix6d hessian = Matrix6d::Zero();
+    auto gradient = pose_gradient_.segment<6>(6 * pose);
+    auto right_side = system_.right_side().segment<6>(6 * pose);
+    for (const Part& part : parts_) {
+      hessian += part.equations[pose].Hessian();
+      gradient += part.equations[pose].Gradient();
+      right_side -= part.right_reduction[pose];
+    }
+    right_side += gradient;
+    for (int i = 0; i < 6; ++i) {
+      pose_damping_[6 * pose + i] = damping.Of(hessian(i, i));
+      hessian(i, i) += pose_damping_[6 * pose + i];
+    }
+    blocks[system_.BlockNumber(pose, pose)] += hessian;
+  }
+}
+
+BundleStep BundleSolver::BackSubstitute(Eigen::VectorXd pose_step) const {
+  BundleStep step{.poses = std::move(pose_step),
+                  .points = std::vector<Eigen::Vector3d>(factors_.size(), Eigen::Vector3d::Zero())};
+  step.predicted_decrease = step.poses.dot(pose_damping_.cwiseProduct(step.poses) - pose_gradient_);
+  for (std::size_t point = 0; point < factors_.size(); ++point) {
+    const PointFactor& factor = factors_[point];
+    if (!factor.valid) continue;
+    Eigen::Vector3d right_side = factor.forward;
+    const int end = index_.first_slot_of_point[point + 1];
+    for (int s = index_.first_free_slot_of_point[point]; s < end; ++s) {
+      right_side.noalias() +=
+          v_[s].transpose() * step.poses.segment<6>(6 * index_.slots[s].free_pose);
+    }
+    const Eigen::Vector3d move = -(factor.inverse_lower.transpose() * right_side);
+    step.points[point] = move;
+    step.predicted_decrease += move.dot(factor.damping.cwiseProduct(move) - factor.gradient);
+  }
+  return step;
 }
 
 std::optional<BundleStep> BundleSolver::Step(const BundleState& state, const Damping& damping) {
   const std::vector<Eigen::Matrix3d> R_world_camera = Rotations(state.T_world_camera);
-  const std::size_t num_points = state.p_world.size();
-  ParallelFor(num_points, kPointsPerChunk, num_threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t point = first; point < last; ++point) {
-      EliminatePoint(state, R_world_camera, damping, static_cast<int>(point));
+  ParallelFor(parts_.size(), 1, num_threads_, [&](std::size_t first, std::size_t last) {
+    for (std::size_t part = first; part < last; ++part) {
+      BuildPart(state, R_world_camera, damping, static_cast<int>(part));
     }
   });
-  ParallelFor(system_.num_poses(), 1, num_threads_, [&](std::size_t first, std::size_t last) {
-    for (std::size_t pose = first; pose < last; ++pose) ReducePose(damping, static_cast<int>(pose));
-  });
-
-  BundleStep step;
-  if (system_.num_poses() > 0) {
-    std::optional<Eigen::VectorXd> poses = system_.Solve();
-    if (!poses) return std::nullopt;
-    step.poses = std::move(*poses);
-    step.predicted_decrease =
-        step.poses.dot(pose_damping_.cwiseProduct(step.poses) - pose_gradient_);
-  }
-  step.points.resize(num_points);
-  for (std::size_t point = 0; point < num_points; ++point) {
-    step.points[point] = BackSubstitute(step.poses, static_cast<int>(point));
-    const PointFactor& factor = factors_[point];
-    if (!factor.valid) continue;
-    step.predicted_decrease +=
-        step.points[point].dot(factor.damping.cwiseProduct(step.points[point]) - factor.gradient);
-  }
-  return step;
+  SumParts(damping);
+  if (system_.num_poses() == 0) return BackSubstitute(Eigen::VectorXd());
+  std::optional<Eigen::VectorXd> pose_step = system_.Solve();
+  if (!pose_step) return std::nullopt;
+  return BackSubstitute(std::move(*pose_step));
 }
 
 }  // namespace semslam::internal

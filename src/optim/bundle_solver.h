@@ -13,6 +13,7 @@
 #include "optim/bundle_index.h"
 #include "optim/camera_system.h"
 #include "optim/damping.h"
+#include "optim/pose_normal_equations.h"
 #include "optim/reprojection.h"
 
 namespace semslam::internal {
@@ -34,9 +35,9 @@ struct BundleStep {
 //   | W' C | |dp| = - |b_p|        C: 3x3 blocks, one a point,
 // damped to B', C' and with Cholesky factors C' = L L', V = W L^-T, v = L^-1 b_p:
 //   (B' - V V') dc = -(b_c - V v),   dp = -L^-T (v + V' dc).
-// Two passes over the observations: point by point everything that belongs to one point, then pose
-// by pose the rows of the reduced system. Every number is summed up in one fixed order, whatever
-// the number of threads.
+// One pass, point by point, builds the reduced system, so that all that belongs to a point is used
+// while it is in the cache. The points are cut into parts, always the same ones, that are summed up
+// one after the other: the result does not depend on the number of threads.
 class BundleSolver {
  public:
   // Keeps references to camera and index.
@@ -51,26 +52,38 @@ class BundleSolver {
   struct PointFactor {
     // False if the point is not observed: it stays in place and adds nothing.
     bool valid = false;
-    Eigen::Matrix3d lower;                              // L.
-    Eigen::Vector3d forward;                            // v.
-    Eigen::Vector3d gradient;                           // b_p.
-    Eigen::Vector3d damping = Eigen::Vector3d::Zero();  // C' - C.
+    Eigen::Matrix3d inverse_lower;  // L^-1.
+    Eigen::Vector3d forward;        // v.
+    Eigen::Vector3d gradient;       // b_p.
+    Eigen::Vector3d damping;        // C' - C.
+  };
+  // The sums over one part of the points.
+  struct Part {
+    std::vector<PoseNormalEquations> equations;  // B and b_c, one a free pose.
+    std::vector<Matrix6d> reduction;             // V V', one a block of the camera system.
+    std::vector<Vector6d> right_reduction;       // V v, one a free pose.
   };
 
-  void EliminatePoint(const BundleState& state,
+  void BuildPart(const BundleState& state,
+                 const std::vector<Eigen::Matrix3d>& R_world_camera,
+                 const Damping& damping,
+                 int part);
+  void LinearizePoint(const BundleState& state,
                       const std::vector<Eigen::Matrix3d>& R_world_camera,
                       const Damping& damping,
-                      int point);
-  void ReducePose(const Damping& damping, int free_pose);
-  Eigen::Vector3d BackSubstitute(const Eigen::VectorXd& pose_step, int point) const;
+                      int point,
+                      Part* part);
+  void ReducePoint(int point, Part* part) const;
+  void SumParts(const Damping& damping);
+  BundleStep BackSubstitute(Eigen::VectorXd pose_step) const;
 
   const StereoCamera& camera_;
   const BundleIndex& index_;
   const bool robust_;
   const int num_threads_;
-  std::vector<ReprojectionTerm> terms_;  // One a slot, weighted.
-  std::vector<Matrix63d> v_;             // One a slot; unused for fixed poses.
-  std::vector<PointFactor> factors_;     // One a point.
+  std::vector<Matrix63d> v_;          // V, one a slot; not set for fixed poses.
+  std::vector<PointFactor> factors_;  // One a point.
+  std::vector<Part> parts_;
   CameraSystem system_;
   Eigen::VectorXd pose_gradient_;  // b_c.
   Eigen::VectorXd pose_damping_;   // B' - B.

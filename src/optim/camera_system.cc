@@ -35,14 +35,6 @@ CameraSystem::CameraSystem(const BundleIndex& index)
   blocks_.resize(num_blocks);
 }
 
-void CameraSystem::SetRowToZero(int row) {
-  for (int column = row; column < num_poses_; ++column) {
-    const int block = block_of_pair_[Pair(row, column)];
-    if (block != kNoBlock) blocks_[block].setZero();
-  }
-  right_side_.segment<6>(6 * row).setZero();
-}
-
 std::optional<Eigen::VectorXd> CameraSystem::Solve() const {
   const double num_pairs = 0.5 * num_poses_ * (num_poses_ + 1.0);
   const bool dense = num_poses_ <= kMaxPosesAlwaysDense ||

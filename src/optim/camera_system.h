@@ -20,11 +20,15 @@ class CameraSystem {
   explicit CameraSystem(const BundleIndex& index);
 
   int num_poses() const { return num_poses_; }
-  // The block in this row and column of blocks; row <= column, and the poses share a point.
-  Matrix6d& Block(int row, int column) { return blocks_[block_of_pair_[Pair(row, column)]]; }
+  int num_blocks() const { return static_cast<int>(blocks_.size()); }
+  // Number of the block in this row and column of blocks; row <= column, and the poses share a
+  // point.
+  int BlockNumber(int row, int column) const { return block_of_pair_[Pair(row, column)]; }
+  // Row by row.
+  std::vector<Matrix6d>& blocks() { return blocks_; }
+  // b.
   Eigen::VectorXd& right_side() { return right_side_; }
 
-  void SetRowToZero(int row);
   // dx; nothing if S is not positive definite in the arithmetic of doubles.
   std::optional<Eigen::VectorXd> Solve() const;
 
@@ -39,8 +43,8 @@ class CameraSystem {
 
   int num_poses_;
   std::vector<int> block_of_pair_;  // kNoBlock where the poses share no point.
-  std::vector<Matrix6d> blocks_;    // Row by row.
-  Eigen::VectorXd right_side_;      // b.
+  std::vector<Matrix6d> blocks_;
+  Eigen::VectorXd right_side_;
 };
 
 }  // namespace semslam::internal
