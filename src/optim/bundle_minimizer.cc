@@ -12,7 +12,7 @@ BundleState Moved(const BundleState& state, const BundleIndex& index, const Bund
   BundleState moved = state;
   for (int i = 0; i < index.num_free_poses(); ++i) {
     Rigid3& pose = moved.T_world_camera[index.pose_of_free_pose[i]];
-    pose = Retract(pose, step.poses.segment<6>(6 * i));
+    pose = Retract(pose, step.poses.segment<6>(FirstRow(i)));
   }
   for (std::size_t i = 0; i < moved.p_world.size(); ++i) moved.p_world[i] += step.points[i];
   return moved;

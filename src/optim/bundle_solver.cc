@@ -25,14 +25,27 @@ std::vector<Eigen::Matrix3d> Rotations(const std::vector<Rigid3>& poses) {
   return rotations;
 }
 
-// The inverse of the lower Cholesky factor of a symmetric 3x3 matrix, which the caller's damping
-// keeps definite; not finite otherwise.
+// A column of M R^T, for a row of R.
+Eigen::Vector3d InformationTimes(const ReprojectionTerm& term, const Eigen::RowVector3d& row) {
+  return {term.m00 * row[0] + term.m02 * row[2], term.m11 * row[1] + term.m12 * row[2],
+          term.m02 * row[0] + term.m12 * row[1] + term.m22 * row[2]};
+}
+
+// w * l^T in the place of w, for a lower triangle l.
+void MultiplyByTransposeOf(const Eigen::Matrix3d& l, Matrix63d* w) {
+  w->col(2) = w->col(0) * l(2, 0) + w->col(1) * l(2, 1) + w->col(2) * l(2, 2);
+  w->col(1) = w->col(0) * l(1, 0) + w->col(1) * l(1, 1);
+  w->col(0) *= l(0, 0);
+}
+
+// The inverse of the lower Cholesky factor of a symmetric 3x3 matrix of which the upper triangle is
+// given. The caller's damping keeps it definite; the result is not finite otherwise.
 Eigen::Matrix3d InverseCholeskyFactor(const Eigen::Matrix3d& m) {
   const double i00 = 1.0 / std::sqrt(m(0, 0));
-  const double l10 = m(1, 0) * i00;
-  const double l20 = m(2, 0) * i00;
+  const double l10 = m(0, 1) * i00;
+  const double l20 = m(0, 2) * i00;
   const double i11 = 1.0 / std::sqrt(m(1, 1) - l10 * l10);
-  const double l21 = (m(2, 1) - l20 * l10) * i11;
+  const double l21 = (m(1, 2) - l20 * l10) * i11;
   const double i22 = 1.0 / std::sqrt(m(2, 2) - l20 * l20 - l21 * l21);
   const double i10 = -l10 * i00 * i11;
   Eigen::Matrix3d inverse;
@@ -62,8 +75,8 @@ BundleSolver::BundleSolver(const StereoCamera& camera,
       factors_(index.num_points()),
       parts_(std::clamp(index.num_points() / kMinPointsPerPart, 1, kMaxParts)),
       system_(index),
-      pose_gradient_(6 * index.num_free_poses()),
-      pose_damping_(6 * index.num_free_poses()) {}
+      pose_gradient_(FirstRow(index.num_free_poses())),
+      pose_damping_(FirstRow(index.num_free_poses())) {}
 
 double BundleSolver::Cost(const BundleState& state) const {
   const std::vector<Eigen::Matrix3d> R_world_camera = Rotations(state.T_world_camera);
@@ -102,22 +115,21 @@ void BundleSolver::LinearizePoint(const BundleState& state,
     factor.valid = true;
     ReprojectionTerm term = LinearizeReprojection(camera_, p_camera, slot.image);
     if (robust_ && term.chi2 > slot.limit) term.Scale(Huber(term.chi2, slot.limit).weight);
-    const Eigen::Matrix3d information_world = term.Information() * rotation.transpose();
-    hessian.noalias() += rotation * information_world;
     factor.gradient.noalias() += rotation * term.gradient;
-    if (s < first_free) continue;
-    part->equations[slot.free_pose].Add(term);
+    if (s >= first_free) part->equations[slot.free_pose].Add(term);
     for (int c = 0; c < 3; ++c) {
-      v_[s].col(c).head<3>() = information_world.col(c).cross(p_camera);
+      const Eigen::Vector3d column = InformationTimes(term, rotation.row(c));
+      for (int r = 0; r <= c; ++r) hessian(r, c) += rotation.row(r).dot(column);
+      if (s < first_free) continue;
+      v_[s].col(c) << column.cross(p_camera), -column;
     }
-    v_[s].bottomRows<3>() = -information_world;
   }
   if (!factor.valid) return;
   for (int i = 0; i < 3; ++i) factor.damping[i] = damping.Of(hessian(i, i));
   hessian.diagonal() += factor.damping;
   factor.inverse_lower = InverseCholeskyFactor(hessian);
   factor.forward = factor.inverse_lower * factor.gradient;
-  for (int s = first_free; s < end; ++s) v_[s] = v_[s] * factor.inverse_lower.transpose();
+  for (int s = first_free; s < end; ++s) MultiplyByTransposeOf(factor.inverse_lower, &v_[s]);
 }
 
 // V V' and V v of one point.
@@ -164,8 +176,8 @@ void BundleSolver::SumParts(const Damping& damping) {
   }
   for (int pose = 0; pose < system_.num_poses(); ++pose) {
     Matrix6d hessian = Matrix6d::Zero();
-    auto gradient = pose_gradient_.segment<6>(6 * pose);
-    auto right_side = system_.right_side().segment<6>(6 * pose);
+    auto gradient = pose_gradient_.segment<6>(FirstRow(pose));
+    auto right_side = system_.right_side().segment<6>(FirstRow(pose));
     for (const Part& part : parts_) {
       hessian += part.equations[pose].Hessian();
       gradient += part.equations[pose].Gradient();
@@ -173,8 +185,8 @@ void BundleSolver::SumParts(const Damping& damping) {
     }
     right_side += gradient;
     for (int i = 0; i < 6; ++i) {
-      pose_damping_[6 * pose + i] = damping.Of(hessian(i, i));
-      hessian(i, i) += pose_damping_[6 * pose + i];
+      pose_damping_[FirstRow(pose) + i] = damping.Of(hessian(i, i));
+      hessian(i, i) += pose_damping_[FirstRow(pose) + i];
     }
     blocks[system_.BlockNumber(pose, pose)] += hessian;
   }
@@ -191,7 +203,7 @@ BundleStep BundleSolver::BackSubstitute(Eigen::VectorXd pose_step) const {
     const int end = index_.first_slot_of_point[point + 1];
     for (int s = index_.first_free_slot_of_point[point]; s < end; ++s) {
       right_side.noalias() +=
-          v_[s].transpose() * step.poses.segment<6>(6 * index_.slots[s].free_pose);
+          v_[s].transpose() * step.poses.segment<6>(FirstRow(index_.slots[s].free_pose));
     }
     const Eigen::Vector3d move = -(factor.inverse_lower.transpose() * right_side);
     step.points[point] = move;

@@ -17,7 +17,7 @@ constexpr double kMinFillDense = 0.4;
 CameraSystem::CameraSystem(const BundleIndex& index)
     : num_poses_(index.num_free_poses()),
       block_of_pair_(static_cast<std::size_t>(num_poses_) * num_poses_, kNoBlock),
-      right_side_(Eigen::VectorXd::Zero(6 * num_poses_)) {
+      right_side_(Eigen::VectorXd::Zero(FirstRow(num_poses_))) {
   constexpr int kPresent = 0;
   for (int pose = 0; pose < num_poses_; ++pose) block_of_pair_[Pair(pose, pose)] = kPresent;
   for (int point = 0; point < index.num_points(); ++point) {
@@ -46,12 +46,12 @@ std::optional<Eigen::VectorXd> CameraSystem::Solve() const {
 
 std::optional<Eigen::VectorXd> CameraSystem::SolveDense() const {
   // The lower triangle, which the factorisation reads, is the transpose of what is held.
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(6 * num_poses_, 6 * num_poses_);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(FirstRow(num_poses_), FirstRow(num_poses_));
   for (int row = 0; row < num_poses_; ++row) {
     for (int column = row; column < num_poses_; ++column) {
       const int block = block_of_pair_[Pair(row, column)];
       if (block == kNoBlock) continue;
-      matrix.block<6, 6>(6 * column, 6 * row) = blocks_[block].transpose();
+      matrix.block<6, 6>(FirstRow(column), FirstRow(row)) = blocks_[block].transpose();
     }
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>, Eigen::Lower> factor(matrix);  // In place.
@@ -74,7 +74,7 @@ std::optional<Eigen::VectorXd> CameraSystem::SolveSparse() const {
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(6 * num_poses_, 6 * num_poses_);
+  Eigen::SparseMatrix<double> matrix(FirstRow(num_poses_), FirstRow(num_poses_));
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Upper> factor(matrix);
   if (factor.info() != Eigen::Success) return std::nullopt;

@@ -12,6 +12,9 @@
 
 namespace semslam::internal {
 
+// Where the six numbers of a free pose begin in vectors over all of them.
+inline Eigen::Index FirstRow(int free_pose) { return Eigen::Index{6} * free_pose; }
+
 // The reduced camera system S dx = -b: symmetric, positive definite, in 6x6 blocks, of which only
 // those on and above the diagonal that can differ from zero are held (two poses with a common
 // point).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -67,6 +68,7 @@ Linearization Linearize(const StereoCamera& camera,
 struct RoundResult {
   Rigid3 T_world_camera;
   int num_iterations = 0;
+  bool converged = false;
 };
 
 // Levenberg-Marquardt over the given terms.
@@ -87,22 +89,26 @@ RoundResult Minimize(const StereoCamera& camera,
     hessian.diagonal() += damping_diagonal;
     const Vector6d step = hessian.ldlt().solve(-gradient);
     const double predicted = step.dot(damping_diagonal.cwiseProduct(step) - gradient);
-    if (!(predicted > 0)) break;  // At the minimum, to the last digit.
+    if (!(predicted > 0)) {  // At the minimum, to the last digit.
+      result.converged = true;
+      break;
+    }
 
     const Rigid3 T_trial = Retract(result.T_world_camera, step);
     const Linearization trial = Linearize(camera, T_trial, terms, robust);
     const double decrease = current.cost - trial.cost;
     if (!(decrease > 0)) {
       // A step that promised nothing and brought nothing: this is the minimum.
-      if (predicted <= options.relative_tolerance * current.cost) break;
+      result.converged = predicted <= options.relative_tolerance * current.cost;
+      if (result.converged) break;
       damping.StepRejected();
       continue;
     }
-    const bool converged = decrease <= options.relative_tolerance * current.cost;
+    result.converged = decrease <= options.relative_tolerance * current.cost;
     damping.StepTaken(decrease, predicted);
     result.T_world_camera = T_trial;
     current = trial;
-    if (converged) break;
+    if (result.converged) break;
   }
   return result;
 }
@@ -180,9 +186,13 @@ PoseSolution OptimizePose(const StereoCamera& camera,
     }
     const RoundResult result = Minimize(camera, solution.T_world_camera, terms,
                                         round < options.num_robust_rounds, options);
-    const int num_iterations = solution.num_iterations + result.num_iterations;
-    solution = Judge(camera, result.T_world_camera, observations, options.chi2);
-    solution.num_iterations = num_iterations;
+    PoseSolution judged = Judge(camera, result.T_world_camera, observations, options.chi2);
+    judged.num_iterations = solution.num_iterations + result.num_iterations;
+    // A minimum over just those that are its inliers: with or without kernel, further rounds would
+    // stay in it.
+    const bool is_final = result.converged && judged.is_inlier == solution.is_inlier;
+    solution = std::move(judged);
+    if (is_final) break;
   }
   if (solution.num_inliers < kMinObservations) {
     return Failure(T_world_camera_initial, observations.size());

@@ -41,7 +41,8 @@ struct PoseSolution {
 
 // The camera pose that minimises the reprojection errors of known points, by Levenberg-Marquardt on
 // the 6x6 normal equations. Outliers (chi-squared limit, behind the camera, or not finite) are
-// looked for among all observations after every round, so that one thrown out may come back. With
+// looked for among all observations after every round, so that one thrown out may come back; rounds
+// end early at a minimum whose inliers are just the observations it was made from. With
 // fewer than three usable observations at any time: the initial pose and no inliers.
 PoseSolution OptimizePose(const StereoCamera& camera,
                           const Rigid3& T_world_camera_initial,
