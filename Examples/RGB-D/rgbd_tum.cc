@@ -100,12 +100,12 @@ int MapSequence(const Arguments& arguments) {
   ProgressLine progress;
   for (const std::string& warning : settings.warnings) progress.Report("warning: " + warning);
   semslam::TumDataset sequence = OpenSequence(arguments, settings);
-  auto vocabulary =
+  const auto vocabulary =
       std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
   semslam::System::Options options = SystemOptions(arguments, settings, progress);
   semslam::CheckOutputFolder(arguments.output);
 
-  semslam::System system(settings, std::move(vocabulary), std::move(options));
+  semslam::System system(settings, vocabulary, std::move(options));
   const RunStatistics run = RunSequence(arguments, settings.fps, sequence, system, progress);
   progress.ShowStep(RemainingSteps(system.status()));
   const semslam::PointCloudMapping::Result map =

@@ -4,6 +4,7 @@
 #include "summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -18,7 +19,8 @@ namespace {
 double Quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(fraction * static_cast<double>(values.size() - 1) + 0.5)];
+  return values[static_cast<std::size_t>(
+      std::lround(fraction * static_cast<double>(values.size() - 1)))];
 }
 
 double PeakMegabytes() {

@@ -46,9 +46,7 @@ void PrintJson(const semslam::TrajectoryError& error) {
   std::cout << json.dump(2) << '\n';
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App app("Absolute and relative error of a trajectory in the TUM format.");
   std::string truth_path;
   std::string estimate_path;
@@ -66,14 +64,20 @@ int main(int argc, char** argv) {
               << " (--help shows the usage)\n";
     return 1;
   }
+  const semslam::Trajectory truth = semslam::ReadTrajectory(truth_path);
+  const semslam::Trajectory estimate = semslam::ReadTrajectory(estimate_path);
+  const semslam::TrajectoryError error = semslam::EvaluateTrajectory(truth, estimate);
+  as_json ? PrintJson(error) : PrintText(error);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const semslam::Trajectory truth = semslam::ReadTrajectory(truth_path);
-    const semslam::Trajectory estimate = semslam::ReadTrajectory(estimate_path);
-    const semslam::TrajectoryError error = semslam::EvaluateTrajectory(truth, estimate);
-    as_json ? PrintJson(error) : PrintText(error);
+    return Run(argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "evaluate_trajectory: " << Printable(error.what()) << '\n';
     return 1;
   }
-  return 0;
 }

@@ -119,7 +119,10 @@ void Run(const Arguments& arguments) {
 }  // namespace
 }  // namespace semslam
 
-int main(int argc, char** argv) {
+namespace {
+
+// Returns the exit code.
+int ParseAndRun(int argc, char** argv) {
   semslam::Arguments arguments;
   CLI::App app("Trains a vocabulary of ORB features from folders of images, or converts one.");
   app.set_version_flag("--version", SEMSLAM_VERSION);
@@ -154,11 +157,17 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 1;
   }
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  semslam::Run(arguments);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    semslam::Run(arguments);
+    return ParseAndRun(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "train_vocabulary: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

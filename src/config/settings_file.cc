@@ -71,7 +71,7 @@ std::string ToText(double value) {
 
 // "a number > 0", "an integer from 1 to 100".
 std::string Expected(const NumberRange& range, bool must_be_integer) {
-  const std::string kind = must_be_integer ? "an integer" : "a number";
+  std::string kind = must_be_integer ? "an integer" : "a number";
   const bool has_min = std::isfinite(range.min);
   if (has_min && std::isfinite(range.max)) {
     return kind + (range.min_is_allowed ? " from " : " above ") + ToText(range.min) +
@@ -172,7 +172,7 @@ void SettingsFile::Parse(std::string_view text) {
 std::string SettingsFile::ParseEntry(std::string_view line, int number) {
   const std::string where = "line " + std::to_string(number);
   const std::size_t colon = line.find(':');
-  const std::string key(Trim(line.substr(0, colon)));
+  std::string key(Trim(line.substr(0, colon)));
   if (colon == std::string_view::npos || key.empty() ||
       key.find_first_of(" \t\"'{}[],") != std::string::npos) {
     Fail(where, "expected `key: value`, found " + Shown(line));

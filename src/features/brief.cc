@@ -30,7 +30,7 @@ std::uint64_t PackBits(const std::uint8_t* bits) {
 
 }  // namespace
 
-SteeredBrief::SteeredBrief() : pattern_x_{}, pattern_y_{} {
+SteeredBrief::SteeredBrief() {
   for (int i = 0; i < kDescriptorBits; ++i) {
     const BriefPair& pair = OrbPattern()[i];
     pattern_x_[i] = pair.first_x;

@@ -25,8 +25,8 @@ class SteeredBrief {
  private:
   static constexpr int kNumPoints = 2 * kDescriptorBits;
   // All first positions, then all second ones.
-  std::array<float, kNumPoints> pattern_x_;
-  std::array<float, kNumPoints> pattern_y_;
+  std::array<float, kNumPoints> pattern_x_{};
+  std::array<float, kNumPoints> pattern_y_{};
 };
 
 }  // namespace semslam

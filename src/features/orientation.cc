@@ -8,7 +8,7 @@
 
 namespace semslam {
 
-IntensityCentroid::IntensityCentroid() : half_widths_{} {
+IntensityCentroid::IntensityCentroid() {
   // Rows up to 45 degrees from the circle's equation, the others by mirroring at the diagonal, so
   // that the disc looks the same along both axes.
   const int diagonal = static_cast<int>(std::floor(kRadius * std::sqrt(0.5) + 1));

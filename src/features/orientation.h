@@ -21,7 +21,7 @@ class IntensityCentroid {
   float AngleDegrees(const cv::Mat& image, int x, int y) const;
 
  private:
-  std::array<int, kRadius + 1> half_widths_;  // Of the disc's row at distance v from the centre.
+  std::array<int, kRadius + 1> half_widths_{};  // Of the disc's row at distance v from the centre.
 };
 
 }  // namespace semslam

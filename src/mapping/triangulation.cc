@@ -39,7 +39,7 @@ class EpipolarCheck {
                 const View& second)
       : camera_(camera),
         scale_space_(scale_space),
-        E_first_second_(EssentialMatrix(first, second)) {
+        essential_first_second_(EssentialMatrix(first, second)) {
     const Eigen::Vector3d epipole =
         second.T_camera_world * first.keyframe.T_world_camera.translation;
     if (epipole.z() > 0) epipole_second_ = camera.Project(epipole);
@@ -56,7 +56,7 @@ class EpipolarCheck {
       return false;
     }
     // The line a x + b y + c = 0 on the second's normalised plane, then in pixels.
-    const Eigen::Vector3d line = E_first_second_.transpose() * Ray(camera_, first);
+    const Eigen::Vector3d line = essential_first_second_.transpose() * Ray(camera_, first);
     const Eigen::Vector2d gradient(line.x() / camera_.fx(), line.y() / camera_.fy());
     if (gradient.squaredNorm() == 0) return false;
     const double residual = line.dot(Ray(camera_, second));
@@ -66,7 +66,7 @@ class EpipolarCheck {
  private:
   const PinholeCamera& camera_;
   const ScaleSpace& scale_space_;
-  Eigen::Matrix3d E_first_second_;
+  Eigen::Matrix3d essential_first_second_;
   std::optional<Eigen::Vector2d> epipole_second_;
 };
 
@@ -81,9 +81,9 @@ std::optional<Eigen::Vector3d> TriangulateRays(const View& first,
   for (const auto& [view, ray] :
        {std::pair<const View&, const Eigen::Vector3d&>{first, ray_first},
         std::pair<const View&, const Eigen::Vector3d&>{second, ray_second}}) {
-    const Eigen::Matrix4d T = view.T_camera_world.ToMatrix();
-    system.row(row++) = ray.x() * T.row(2) - T.row(0);
-    system.row(row++) = ray.y() * T.row(2) - T.row(1);
+    const Eigen::Matrix4d T_camera_world = view.T_camera_world.ToMatrix();
+    system.row(row++) = ray.x() * T_camera_world.row(2) - T_camera_world.row(0);
+    system.row(row++) = ray.y() * T_camera_world.row(2) - T_camera_world.row(1);
   }
   const Eigen::JacobiSVD<Eigen::Matrix4d> svd(system, Eigen::ComputeFullV);
   const Eigen::Vector4d homogeneous = svd.matrixV().col(3);

@@ -19,7 +19,7 @@ DetectorThread::DetectorThread(Threading threading, std::unique_ptr<Detector> de
               .queue_capacity = 4096,
               .order = QueueOrder::kNewestFirst,
               .is_background = true},
-             [this](Job job) { Process(std::move(job)); }) {
+             [this](const Job& job) { Process(job); }) {
   SEMSLAM_CHECK(detector_ != nullptr);
 }
 
@@ -29,7 +29,7 @@ bool DetectorThread::Submit(KeyframeId keyframe, const RgbdImagePtr& image) {
   return stage_.TrySubmit(std::move(job));
 }
 
-void DetectorThread::Process(Job job) {
+void DetectorThread::Process(const Job& job) {
   std::vector<Detection> detections;
   try {
     const Stopwatch stopwatch;

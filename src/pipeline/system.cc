@@ -41,10 +41,9 @@ PointCloudMapping::Options PointCloudOptions(const Settings& settings) {
 }  // namespace
 
 System::System(const Settings& settings,
-               std::shared_ptr<const Vocabulary> vocabulary,
+               const std::shared_ptr<const Vocabulary>& vocabulary,
                Options options)
-    : threading_(options.threading),
-      log_(std::move(options.log)),
+    : log_(std::move(options.log)),
       frame_builder_(settings.orb, PinholeCamera(settings.camera), settings.bf),
       map_(ScaleSpace{settings.orb.scale_factor, settings.orb.num_levels}),
       tracking_(
@@ -76,7 +75,7 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   SEMSLAM_CHECK(image != nullptr);
   auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
   const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
-  const Tracking::Result result = tracking_.Track(std::move(frame), load);
+  Tracking::Result result = tracking_.Track(std::move(frame), load);
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
   if (result.state == TrackingState::kTracking) {
     trajectory_.Write([&](std::vector<TrajectoryEntry>& entries) {

@@ -13,7 +13,8 @@ namespace semslam {
 template <typename Tag>
 struct Id {
   std::uint32_t value = 0;
-  friend auto operator<=>(Id, Id) = default;
+  friend auto operator<=>(Id, Id) =
+      default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14.
 };
 
 using KeyframeId = Id<struct KeyframeTag>;  // In the order of insertion, never reused within a map.

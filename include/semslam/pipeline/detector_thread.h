@@ -52,7 +52,7 @@ class DetectorThread {
     KeyframeId keyframe;
     RgbdImage image;  // Without depth.
   };
-  void Process(Job job);
+  void Process(const Job& job);
 
   std::unique_ptr<Detector> detector_;
   Sink sink_;

@@ -62,7 +62,9 @@ class System {
   };
 
   // Throws InputError for settings that make no sense.
-  System(const Settings& settings, std::shared_ptr<const Vocabulary> vocabulary, Options options);
+  System(const Settings& settings,
+         const std::shared_ptr<const Vocabulary>& vocabulary,
+         Options options);
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;
@@ -103,7 +105,6 @@ class System {
   std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
 
-  const Threading threading_;
   const LogSink log_;
   const FrameBuilder frame_builder_;
   SharedMap map_;
