@@ -7,6 +7,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "semslam/features/match_contest.h"
 
 namespace semslam {
 namespace {
@@ -54,23 +57,13 @@ std::vector<FeatureMatch> MatchProjectedPoints(std::span<const ProjectedPoint> p
                                                const Frame& frame,
                                                std::span<const std::uint8_t> is_taken,
                                                const ProjectionMatchOptions& options) {
-  std::vector<FeatureMatch> matches;
-  std::vector<int> match_of_feature(frame.keypoints.size(), -1);
+  MatchContest contest(frame.keypoints.size());
   for (std::size_t query = 0; query < points.size(); ++query) {
     const Candidate best = FindBest(points[query], frame, is_taken, options);
     if (best.feature < 0) continue;
-    const FeatureMatch match{static_cast<int>(query), best.feature, best.distance};
-    int& holder = match_of_feature[best.feature];
-    if (holder < 0) {
-      holder = static_cast<int>(matches.size());
-      matches.push_back(match);
-    } else if (best.distance < matches[holder].distance) {
-      matches[holder] = match;
-    }
+    contest.Enter({static_cast<int>(query), best.feature, best.distance});
   }
-  std::sort(matches.begin(), matches.end(),
-            [](const FeatureMatch& a, const FeatureMatch& b) { return a.query < b.query; });
-  return matches;
+  return std::move(contest).Finish();
 }
 
 std::vector<FeatureMatch> KeepConsistentTurns(const std::vector<FeatureMatch>& matches,

@@ -143,7 +143,10 @@ void Map::SetAppearance(LandmarkId landmark, const LandmarkAppearance& appearanc
 }
 
 void Map::SetWords(KeyframeId keyframe, std::shared_ptr<const BagOfWords> words) {
-  MutableKeyframe(keyframe).words = std::move(words);
+  Keyframe& changed = MutableKeyframe(keyframe);
+  if (changed.words) keyframe_index_.Erase(keyframe, changed.words->vector);
+  changed.words = std::move(words);
+  if (changed.words) keyframe_index_.Add(keyframe, changed.words->vector);
   ++version_;
 }
 
@@ -197,6 +200,7 @@ void Map::EraseKeyframe(KeyframeId id) {
       RemoveObservation(*landmark, id);
     }
   }
+  if (keyframe.words) keyframe_index_.Erase(id, keyframe.words->vector);
   ReparentChildren(keyframe);
   KeyframeSlot& slot = keyframes_[id.value];
   slot.parent = keyframe.parent;
@@ -219,6 +223,7 @@ void Map::ReparentChildren(const Keyframe& erased) {
 void Map::Clear() {
   for (KeyframeSlot& slot : keyframes_) slot = {};
   for (LandmarkSlot& slot : landmarks_) slot = {};
+  keyframe_index_ = {};
   num_keyframes_ = 0;
   num_landmarks_ = 0;
   ++version_;

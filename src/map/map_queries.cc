@@ -3,6 +3,7 @@
 
 // The read-only side of Map.
 #include <algorithm>
+#include <bit>
 #include <map>
 
 #include "semslam/base/check.h"
@@ -114,6 +115,26 @@ std::vector<KeyframeId> Map::CovisibleKeyframes(KeyframeId id,
   return ids;
 }
 
+std::vector<LandmarkId> Map::LandmarksSeenBy(std::span<const KeyframeId> keyframes) const {
+  // A bit a landmark: several times faster than sorting, and this is asked under the lock.
+  constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> is_seen(landmarks_.size() / kBits + 1, 0);
+  for (const KeyframeId id : keyframes) {
+    const Keyframe* keyframe = FindKeyframe(id);
+    if (keyframe == nullptr) continue;
+    for (const std::optional<LandmarkId> seen : keyframe->landmarks) {
+      if (seen) is_seen[seen->value / kBits] |= std::uint64_t{1} << (seen->value % kBits);
+    }
+  }
+  std::vector<LandmarkId> ids;
+  for (std::size_t i = 0; i < is_seen.size(); ++i) {
+    for (std::uint64_t rest = is_seen[i]; rest != 0; rest &= rest - 1) {
+      ids.push_back({static_cast<std::uint32_t>(i * kBits + std::countr_zero(rest))});
+    }
+  }
+  return ids;
+}
+
 int Map::NumTrackedLandmarks(KeyframeId id, int min_measurements) const {
   int count = 0;
   for (const std::optional<LandmarkId> landmark_id : keyframe(id).landmarks) {
@@ -176,9 +197,11 @@ void Map::CheckConsistency() const {
     num_observations += mark.observations.size();
   }
   std::size_t num_back_references = 0;
+  std::size_t num_with_words = 0;
   for (const KeyframeSlot& slot : keyframes_) {
     if (!slot.keyframe) continue;
     const Keyframe& frame = *slot.keyframe;
+    num_with_words += frame.words ? 1 : 0;
     for (const std::optional<LandmarkId> id : frame.landmarks) num_back_references += id ? 1 : 0;
     if (frame.parent) {
       SEMSLAM_CHECK(FindKeyframe(*frame.parent) != nullptr && *frame.parent < frame.id)
@@ -192,6 +215,9 @@ void Map::CheckConsistency() const {
     }
   }
   SEMSLAM_CHECK(shared.empty()) << shared.size() << " missing covisibility edges";
+  SEMSLAM_CHECK(num_with_words == keyframe_index_.num_keyframes())
+      << num_with_words << " keyframes with words, " << keyframe_index_.num_keyframes()
+      << " in the index";
   SEMSLAM_CHECK(num_back_references == num_observations)
       << num_back_references << " back references, " << num_observations << " observations";
 }

@@ -40,19 +40,11 @@ std::vector<KeyframeId> TargetsOf(const Map& map,
   return targets;
 }
 
-std::vector<Candidate> LandmarksSeenBy(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::vector<LandmarkId> ids;
-  for (const KeyframeId id : keyframes) {
-    const Keyframe* keyframe = map.FindKeyframe(id);
-    if (keyframe == nullptr) continue;
-    for (const std::optional<LandmarkId> landmark : keyframe->landmarks) {
-      if (landmark) ids.push_back(*landmark);
-    }
-  }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+std::vector<Candidate> CopyLandmarks(const Map& map, const std::vector<KeyframeId>& keyframes) {
   std::vector<Candidate> candidates;
-  for (const LandmarkId id : ids) candidates.push_back({id, map.landmark(id).appearance});
+  for (const LandmarkId id : map.LandmarksSeenBy(keyframes)) {
+    candidates.push_back({id, map.landmark(id).appearance});
+  }
   return candidates;
 }
 
@@ -125,7 +117,7 @@ int FuseInto(const MappingContext& context,
     std::vector<Candidate> candidates;
   };
   const Copy copy = context.map.Read([&](const Map& map) {
-    Copy c{map.scale_space(), std::nullopt, LandmarksSeenBy(map, sources)};
+    Copy c{map.scale_space(), std::nullopt, CopyLandmarks(map, sources)};
     if (const Keyframe* keyframe = map.FindKeyframe(target)) c.target = CopyKeyframe(*keyframe);
     return c;
   });

@@ -32,18 +32,6 @@ std::vector<KeyframeId> MovingKeyframes(const Map& map,
   return moving;
 }
 
-std::vector<LandmarkId> LandmarksSeenBy(const Map& map, const std::vector<KeyframeId>& keyframes) {
-  std::vector<LandmarkId> landmarks;
-  for (const KeyframeId keyframe : keyframes) {
-    for (const std::optional<LandmarkId> id : map.keyframe(keyframe).landmarks) {
-      if (id) landmarks.push_back(*id);
-    }
-  }
-  std::sort(landmarks.begin(), landmarks.end());
-  landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
-  return landmarks;
-}
-
 ImagePoint ToImagePoint(const Keypoint& keypoint, const ScaleSpace& scale_space) {
   return {keypoint.pixel.cast<double>(), keypoint.right_x,
           1.0 / scale_space.PixelVariance(keypoint.octave)};
@@ -59,7 +47,7 @@ LocalProblem BuildProblem(const Map& map,
   problem.bundle.camera = camera;
   problem.keyframes = MovingKeyframes(map, center, options);
   problem.num_moving = problem.keyframes.size();
-  problem.landmarks = LandmarksSeenBy(map, problem.keyframes);
+  problem.landmarks = map.LandmarksSeenBy(problem.keyframes);
   std::map<KeyframeId, int> pose_of;
   for (std::size_t i = 0; i < problem.keyframes.size(); ++i)
     pose_of[problem.keyframes[i]] = static_cast<int>(i);

@@ -32,7 +32,7 @@ LocalMapping::LocalMapping(const Options& options,
                            SharedMap& map)
     : options_(options),
       camera_(camera),
-      stereo_{camera.fx(), camera.fy(), camera.cx(), camera.cy(), baseline_times_fx},
+      stereo_(MakeStereoCamera(camera, baseline_times_fx)),
       vocabulary_(std::move(vocabulary)),
       map_(map) {
   options_.Validate();

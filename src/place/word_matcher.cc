@@ -3,7 +3,9 @@
 
 #include "semslam/place/word_matcher.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "semslam/features/match_contest.h"
 
 namespace semslam {
 namespace {
@@ -20,7 +22,7 @@ class WordMatcher {
       : first_(first),
         second_(second),
         options_(options),
-        match_of_second_(second.frame.keypoints.size(), -1) {}
+        contest_(second.frame.keypoints.size()) {}
 
   // Features of both images under the same node.
   void MatchGroups(std::span<const int> first_features, std::span<const int> second_features) {
@@ -46,38 +48,25 @@ class WordMatcher {
       if (static_cast<float>(best_distance) >
           options_.max_ratio * static_cast<float>(second_distance))
         continue;
-      Keep({a, best, best_distance});
+      contest_.Enter({a, best, best_distance});
     }
   }
 
-  std::vector<FeatureMatch> Finish() {
-    std::sort(matches_.begin(), matches_.end(),
-              [](const FeatureMatch& a, const FeatureMatch& b) { return a.query < b.query; });
+  std::vector<FeatureMatch> Finish() && {
+    const std::vector<FeatureMatch> matches = std::move(contest_).Finish();
     std::vector<float> turns;
-    for (const FeatureMatch& match : matches_) {
+    for (const FeatureMatch& match : matches) {
       turns.push_back(first_.frame.keypoints[match.query].angle -
                       second_.frame.keypoints[match.feature].angle);
     }
-    return KeepConsistentTurns(matches_, turns);
+    return KeepConsistentTurns(matches, turns);
   }
 
  private:
-  // Where two features want the same one, the nearer descriptor has it.
-  void Keep(const FeatureMatch& match) {
-    int& holder = match_of_second_[match.feature];
-    if (holder < 0) {
-      holder = static_cast<int>(matches_.size());
-      matches_.push_back(match);
-    } else if (match.distance < matches_[holder].distance) {
-      matches_[holder] = match;
-    }
-  }
-
   const WordMatchImage& first_;
   const WordMatchImage& second_;
   const WordMatchOptions& options_;
-  std::vector<int> match_of_second_;  // Index into matches_, or -1.
-  std::vector<FeatureMatch> matches_;
+  MatchContest contest_;  // For the features of the second image.
 };
 
 }  // namespace
@@ -100,7 +89,7 @@ std::vector<FeatureMatch> MatchByWords(const WordMatchImage& first,
       ++b;
     }
   }
-  return matcher.Finish();
+  return std::move(matcher).Finish();
 }
 
 }  // namespace semslam

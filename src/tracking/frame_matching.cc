@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "semslam/optim/pose_optimizer.h"
 
@@ -24,7 +25,21 @@ OctaveRange RangeForMotion(const Rigid3& T_last_current, double baseline, int nu
   return {1, 1};
 }
 
+// Pixels: wider where the landmark is seen from an unusual side.
+float WindowSize(float view_cosine) {
+  constexpr float kFrontalViewCosine = 0.998F;
+  return view_cosine > kFrontalViewCosine ? 2.5F : 4.0F;
+}
+
 }  // namespace
+
+TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera) {
+  TrackedFrame tracked;
+  tracked.points.resize(frame->keypoints.size());
+  tracked.frame = std::move(frame);
+  tracked.T_world_camera = T_world_camera;
+  return tracked;
+}
 
 TrackedFrame MatchLastFrame(const TrackedFrame& last,
                             const TrackedFrame& predicted,
@@ -68,24 +83,38 @@ TrackedFrame MatchLastFrame(const TrackedFrame& last,
   return matched;
 }
 
-std::vector<VisibleLandmark> FindVisible(const std::vector<LocalMap::Entry>& local_map,
-                                         const TrackedFrame& frame,
-                                         const ProjectionCamera& camera,
-                                         float radius_factor) {
-  constexpr float kFrontalViewCosine = 0.998F;
-  constexpr float kFrontalRadius = 2.5F;
-  constexpr float kObliqueRadius = 4.0F;
-  std::vector<VisibleLandmark> visible;
-  for (std::size_t i = 0; i < local_map.size(); ++i) {
-    std::optional<LandmarkProjection> projection =
-        ProjectLandmark(camera, frame.T_world_camera, local_map[i].appearance);
-    if (!projection) continue;
-    projection->point.radius *=
-        radius_factor *
-        (projection->view_cosine > kFrontalViewCosine ? kFrontalRadius : kObliqueRadius);
-    visible.push_back({i, projection->point});
+std::vector<LandmarkId> SearchLandmarks(const std::vector<LocalMap::Entry>& landmarks,
+                                        const ProjectionCamera& camera,
+                                        float radius_factor,
+                                        TrackedFrame* frame) {
+  constexpr float kMaxRatio = 0.8F;
+  std::vector<std::uint8_t> is_taken(frame->points.size(), 0);
+  std::vector<LandmarkId> shown;
+  for (std::size_t i = 0; i < frame->points.size(); ++i) {
+    if (!frame->points[i]) continue;
+    is_taken[i] = 1;
+    if (frame->points[i]->landmark) shown.push_back(*frame->points[i]->landmark);
   }
-  return visible;
+  std::sort(shown.begin(), shown.end());
+
+  std::vector<std::size_t> searched;
+  std::vector<ProjectedPoint> projections;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    std::optional<LandmarkProjection> projection =
+        ProjectLandmark(camera, frame->T_world_camera, landmarks[i].appearance);
+    if (!projection || std::binary_search(shown.begin(), shown.end(), landmarks[i].id)) continue;
+    projection->point.radius *= radius_factor * WindowSize(projection->view_cosine);
+    projections.push_back(projection->point);
+    searched.push_back(i);
+  }
+  for (const FeatureMatch& match :
+       MatchProjectedPoints(projections, *frame->frame, is_taken, {.max_ratio = kMaxRatio})) {
+    const LocalMap::Entry& entry = landmarks[searched[match.query]];
+    frame->points[match.feature] = TrackedPoint{entry.id, entry.appearance.p_world};
+  }
+  std::vector<LandmarkId> ids;
+  for (const std::size_t i : searched) ids.push_back(landmarks[i].id);
+  return ids;
 }
 
 int OptimizeAndDropOutliers(const StereoCamera& stereo,

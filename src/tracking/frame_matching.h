@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "semslam/features/projection_matcher.h"
@@ -13,6 +14,9 @@
 
 namespace semslam {
 
+// A frame at the given pose that shows nothing yet.
+TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera);
+
 // The last frame's points, searched within `radius_px` (at the finest level) of where `predicted`
 // shows them. Returns `predicted` with the points assigned.
 TrackedFrame MatchLastFrame(const TrackedFrame& last,
@@ -20,18 +24,14 @@ TrackedFrame MatchLastFrame(const TrackedFrame& last,
                             const ProjectionCamera& camera,
                             float radius_px);
 
-// A landmark of the local map that should be in view.
-struct VisibleLandmark {
-  std::size_t entry = 0;  // Index into the local map.
-  ProjectedPoint projection;
-};
-// Those of the local map that the frame should show. The search window is `radius_factor` times 2.5
+// Searches those landmarks in the frame that it should show at its pose and that none of its points
+// is, and assigns the features that show them. The search window is `radius_factor` times 2.5
 // pixels of the expected level where the landmark is seen as usual, times 4 where more from the
-// side.
-std::vector<VisibleLandmark> FindVisible(const std::vector<LocalMap::Entry>& local_map,
-                                         const TrackedFrame& frame,
-                                         const ProjectionCamera& camera,
-                                         float radius_factor);
+// side. Returns the landmarks that were searched.
+std::vector<LandmarkId> SearchLandmarks(const std::vector<LocalMap::Entry>& landmarks,
+                                        const ProjectionCamera& camera,
+                                        float radius_factor,
+                                        TrackedFrame* frame);
 
 // Optimises the frame's pose on its points and drops those that do not agree. Returns how many are
 // left.

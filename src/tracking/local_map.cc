@@ -45,23 +45,15 @@ std::vector<KeyframeId> WithNeighbours(const Map& map, const std::map<KeyframeId
   return chosen;
 }
 
-std::vector<LocalMap::Entry> CopyLandmarks(const Map& map,
-                                           const std::vector<KeyframeId>& keyframes) {
-  std::vector<LandmarkId> ids;
-  for (const KeyframeId keyframe : keyframes) {
-    for (const std::optional<LandmarkId> id : map.keyframe(keyframe).landmarks) {
-      if (id) ids.push_back(*id);
-    }
-  }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}  // namespace
+
+std::vector<LocalMap::Entry> CopyLandmarks(const Map& map, std::span<const KeyframeId> keyframes) {
+  const std::vector<LandmarkId> ids = map.LandmarksSeenBy(keyframes);
   std::vector<LocalMap::Entry> entries;
   entries.reserve(ids.size());
   for (const LandmarkId id : ids) entries.push_back({id, map.landmark(id).appearance});
   return entries;
 }
-
-}  // namespace
 
 bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
   return shared_map.Read([&](const Map& map) {
@@ -70,6 +62,7 @@ bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
     reference_ = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
                    return a.second < b.second;
                  })->first;
+    T_world_reference_ = map.keyframe(reference_).T_world_camera;
     std::vector<KeyframeId> keyframes = WithNeighbours(map, votes);
     if (version_ == map.version() && keyframes == keyframes_) return true;
     landmarks_ = CopyLandmarks(map, keyframes);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/map/similar_places.h"
 #include "semslam/place/word_matcher.h"
 
 #include "tracking/frame_matching.h"
@@ -15,15 +16,6 @@
 
 namespace semslam {
 namespace {
-
-// A frame at the given pose that shows nothing yet.
-TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera) {
-  TrackedFrame tracked;
-  tracked.points.resize(frame->keypoints.size());
-  tracked.frame = std::move(frame);
-  tracked.T_world_camera = T_world_camera;
-  return tracked;
-}
 
 // The keyframe, or where it was erased as redundant, the kept one whose view is nearest to its own
 // (a radian counts as a metre). Null if the map was cleared since.
@@ -62,10 +54,15 @@ Tracking::Tracking(const Options& options,
                    SharedMap& map)
     : options_(options),
       camera_(camera),
-      stereo_{camera.fx(), camera.fy(), camera.cx(), camera.cy(), baseline_times_fx},
+      stereo_(MakeStereoCamera(camera, baseline_times_fx)),
       vocabulary_(std::move(vocabulary)),
       map_(map),
       scale_space_(map.Read([](const Map& m) { return m.scale_space(); })),
+      locator_({.min_inliers = options.min_inliers_after_loss},
+               camera,
+               baseline_times_fx,
+               vocabulary_,
+               map),
       keyframe_policy_(options.keyframes) {
   options_.Validate();
   SEMSLAM_CHECK(vocabulary_ != nullptr);
@@ -75,16 +72,35 @@ Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const Mappe
   SEMSLAM_CHECK(frame != nullptr);
   if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
   BringLastFrameUpToDate();
-  std::optional<TrackedFrame> current =
-      state_ == TrackingState::kTracking ? PredictAndMatch(frame) : FindAgain(frame);
-  if (!current) return Fail(std::move(frame));
-  const int num_inliers = TrackLocalMap(&*current);
-  const bool was_lost_lately = state_ == TrackingState::kLost ||
-                               num_frames_since_found_ < options_.keyframes.max_frames_between;
-  if (num_inliers < (was_lost_lately ? options_.min_inliers_after_loss : options_.min_inliers)) {
-    return Fail(std::move(frame));
+  std::optional<Located> located = Locate(frame);
+  if (map_.Read([&](const Map& map) { return map.epoch() != epoch_; })) {
+    // A correction moved the map under the search: once more, where everything is now.
+    BringLastFrameUpToDate();
+    located = Locate(frame);
   }
-  return Succeed(*std::move(current), num_inliers, mapper);
+  if (!located) return Fail(std::move(frame));
+  return Succeed(*std::move(located), mapper);
+}
+
+// The frame's pose in the local map, if enough agrees with it.
+std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Frame>& frame) {
+  std::optional<TrackedFrame> current;
+  if (state_ == TrackingState::kTracking) current = PredictAndMatch(frame);
+  const bool is_lost = !current;
+  if (is_lost && HasMapWorthKeeping()) current = Relocalize(frame);
+  if (!current) return std::nullopt;
+  const int num_inliers = TrackLocalMap(&*current);
+  const bool was_lost_lately =
+      is_lost || num_frames_since_found_ < options_.keyframes.max_frames_between;
+  if (num_inliers < (was_lost_lately ? options_.min_inliers_after_loss : options_.min_inliers)) {
+    return std::nullopt;
+  }
+  return Located{*std::move(current), num_inliers, is_lost};
+}
+
+bool Tracking::HasMapWorthKeeping() const {
+  const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
+  return num_keyframes > options_.min_keyframes_to_keep;
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
@@ -120,6 +136,7 @@ Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
 // and its landmarks may have moved, merged or vanished.
 void Tracking::BringLastFrameUpToDate() {
   map_.Read([&](const Map& map) {
+    epoch_ = map.epoch();
     if (const std::optional<Rigid3> T_world_reference = map.ResolvePose(last_reference_)) {
       last_.T_world_camera = *T_world_reference * T_reference_last_;
     }
@@ -203,9 +220,7 @@ std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const 
       MatchByWords({*reference->frame, reference_words, has_landmark}, {*frame, words, {}}, {});
   if (static_cast<int>(matches.size()) < options_.min_reference_matches) return std::nullopt;
 
-  const bool is_lost = state_ == TrackingState::kLost;
-  TrackedFrame matched =
-      EmptyFrame(frame, is_lost ? reference->T_world_camera : last_.T_world_camera);
+  TrackedFrame matched = EmptyFrame(frame, last_.T_world_camera);
   for (const FeatureMatch& match : matches)
     matched.points[match.feature] = reference->points[match.query];
   OptimizeAndDropOutliers(stereo_, scale_space_, &matched);
@@ -213,55 +228,36 @@ std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const 
   return matched;
 }
 
-// After a loss: as if the camera were near where it was lost.
-std::optional<TrackedFrame> Tracking::FindAgain(const std::shared_ptr<const Frame>& frame) const {
-  constexpr std::size_t kNumCandidates = 4;
-  std::vector<KeyframeId> candidates = map_.Read([&](const Map& map) {
-    std::vector<KeyframeId> ids;
-    if (const Keyframe* reference = NearestKeptKeyframe(map, last_reference_)) {
-      ids = map.CovisibleKeyframes(reference->id, 1, kNumCandidates);
-      ids.insert(ids.begin(), reference->id);
+// After a loss: the keyframes where it was lost, then all that look like the frame.
+std::optional<TrackedFrame> Tracking::Relocalize(const std::shared_ptr<const Frame>& frame) const {
+  if (static_cast<int>(frame->keypoints.size()) < options_.min_inliers_after_loss) {
+    return std::nullopt;
+  }
+  const BagOfWords words = vocabulary_->Transform(frame->descriptors);
+  const std::vector<KeyframeId> places = map_.Read([&](const Map& map) {
+    std::vector<KeyframeId> ids = FindSimilarPlaces(map, words.vector, {});
+    if (const Keyframe* nearest = NearestKeptKeyframe(map, last_reference_)) {
+      std::erase(ids, nearest->id);
+      ids.insert(ids.begin(), nearest->id);
     }
     return ids;
   });
-  std::optional<TrackedFrame> best;
-  for (const KeyframeId candidate : candidates) {
-    std::optional<TrackedFrame> tracked = TrackKeyframe(frame, candidate);
-    if (tracked && (!best || tracked->NumLandmarks() > best->NumLandmarks()))
-      best = std::move(tracked);
+  for (std::size_t i = 0; i < std::min(places.size(), options_.max_places_tried); ++i) {
+    if (auto located = locator_.Locate(frame, words, places[i])) return located;
   }
-  return best;
+  return std::nullopt;
 }
 
 int Tracking::TrackLocalMap(TrackedFrame* current) {
   if (!local_map_.Update(map_, *current)) return 0;
-  const std::vector<LocalMap::Entry>& local = local_map_.landmarks();
-  std::vector<std::uint8_t> is_taken(current->points.size(), 0);
-  std::vector<LandmarkId> matched_ids;
-  for (std::size_t i = 0; i < current->points.size(); ++i) {
-    if (!current->points[i]) continue;
-    is_taken[i] = 1;
-    matched_ids.push_back(*current->points[i]->landmark);
-    ++sightings_[matched_ids.back()].num_visible;
+  for (const std::optional<TrackedPoint>& point : current->points) {
+    if (point) ++sightings_[*point->landmark].num_visible;
   }
-  std::sort(matched_ids.begin(), matched_ids.end());
-
   const bool was_lost_lately = num_frames_since_found_ < 2;
   const float radius_factor = was_lost_lately ? 5.0F : 3.0F;
-  std::vector<VisibleLandmark> visible =
-      FindVisible(local, *current, {camera_, stereo_.bf, scale_space_}, radius_factor);
-  std::erase_if(visible, [&](const VisibleLandmark& v) {
-    return std::binary_search(matched_ids.begin(), matched_ids.end(), local[v.entry].id);
-  });
-  std::vector<ProjectedPoint> projections;
-  for (const VisibleLandmark& v : visible) {
-    ++sightings_[local[v.entry].id].num_visible;
-    projections.push_back(v.projection);
-  }
-  for (const FeatureMatch& match :
-       MatchProjectedPoints(projections, *current->frame, is_taken, {.max_ratio = 0.8F})) {
-    const LocalMap::Entry& entry = local[visible[match.query].entry];
-    current->points[match.feature] = TrackedPoint{entry.id, entry.appearance.p_world};
+  for (const LandmarkId searched : SearchLandmarks(
+           local_map_.landmarks(), {camera_, stereo_.bf, scale_space_}, radius_factor, current)) {
+    ++sightings_[searched].num_visible;
   }
   const int num_inliers = OptimizeAndDropOutliers(stereo_, scale_space_, current);
   for (const std::optional<TrackedPoint>& point : current->points) {

@@ -11,10 +11,9 @@
 
 namespace semslam {
 
-Tracking::Result Tracking::Succeed(TrackedFrame current,
-                                   int num_inliers,
-                                   const MapperLoad& mapper) {
-  if (state_ == TrackingState::kLost) {
+Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
+  TrackedFrame& current = located.frame;
+  if (located.relocalized) {
     num_frames_since_found_ = 0;
     T_last_next_.reset();
   } else {
@@ -23,26 +22,41 @@ Tracking::Result Tracking::Succeed(TrackedFrame current,
   }
   state_ = TrackingState::kTracking;
   ++num_frames_since_keyframe_;
-  KeyframeId reference = local_map_.reference_keyframe();
 
   Result result;
-  if (keyframe_policy_.WantsKeyframe(Assess(current, num_inliers, reference, mapper))) {
-    reference = InsertKeyframe(&current);
-    result.new_keyframe = reference;
+  last_reference_ = local_map_.reference_keyframe();
+  if (keyframe_policy_.WantsKeyframe(
+          Assess(current, located.num_inliers, last_reference_, mapper))) {
+    last_reference_ = InsertKeyframe(&current);
+    T_reference_last_ = Rigid3();
+    result.new_keyframe = last_reference_;
     num_frames_since_keyframe_ = 0;
+  } else {
+    map_.Read([&](const Map& map) {
+      FollowCorrection(map, &current);
+      const Rigid3 T_world_reference = map.ResolvePose(last_reference_).value_or(Rigid3());
+      T_reference_last_ = T_world_reference.Inverse() * current.T_world_camera;
+    });
   }
-  const std::optional<Rigid3> T_world_reference =
-      map_.Read([&](const Map& map) { return map.ResolvePose(reference); });
   last_ = std::move(current);
-  last_reference_ = reference;
-  T_reference_last_ = T_world_reference.value_or(Rigid3()).Inverse() * last_.T_world_camera;
 
   result.state = state_;
   result.T_world_camera = last_.T_world_camera;
   result.reference_keyframe = last_reference_;
   result.T_reference_camera = T_reference_last_;
-  result.num_inliers = num_inliers;
+  result.num_inliers = located.num_inliers;
+  result.relocalized = located.relocalized;
   return result;
+}
+
+// If the map was corrected since the frame was found in it, the frame keeps its place beside its
+// reference keyframe.
+void Tracking::FollowCorrection(const Map& map, TrackedFrame* current) const {
+  if (map.epoch() == epoch_) return;
+  const std::optional<Rigid3> T_world_reference = map.ResolvePose(local_map_.reference_keyframe());
+  if (!T_world_reference) return;
+  current->T_world_camera =
+      *T_world_reference * local_map_.T_world_reference().Inverse() * current->T_world_camera;
 }
 
 KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
@@ -73,6 +87,7 @@ KeyframeId Tracking::InsertKeyframe(TrackedFrame* current) {
                                      .min_count = options_.min_close_points};
   return map_.Write([&](Map& map) {
     ApplySightings(map);
+    FollowCorrection(map, current);
     const KeyframeId id = map.AddKeyframe(current->frame, current->T_world_camera);
     for (std::size_t feature = 0; feature < current->points.size(); ++feature) {
       std::optional<TrackedPoint>& point = current->points[feature];
@@ -109,8 +124,7 @@ Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   state_ = TrackingState::kLost;
   Result result;
   result.state = state_;
-  const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
-  if (num_keyframes > options_.min_keyframes_to_keep) return result;
+  if (HasMapWorthKeeping()) return result;
   // So little was mapped that a fresh start is better; this frame may serve as the first.
   map_.Write([](Map& map) { map.Clear(); });
   state_ = TrackingState::kNotInitialized;

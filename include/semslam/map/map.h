@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/guarded.h"
@@ -13,8 +16,18 @@
 #include "semslam/features/scale_space.h"
 #include "semslam/map/keyframe.h"
 #include "semslam/map/landmark.h"
+#include "semslam/place/keyframe_index.h"
 
 namespace semslam {
+
+// What a loop closure or a bundle adjustment does to the map.
+struct MapCorrection {
+  // From the old world to the new one, a keyframe. A keyframe that is not listed, because it came
+  // after the correction was begun, moves as its parent does; so does the first as nothing.
+  std::map<KeyframeId, Rigid3> T_new_old;
+  // Landmarks with a place of their own; all others move with their reference keyframe.
+  std::vector<std::pair<LandmarkId, Eigen::Vector3d>> p_world;
+};
 
 // The sparse map: owns all keyframes and landmarks. Every edit keeps both directions of an
 // observation and the covisibility weights in step. Not synchronised itself: threads share it as
@@ -39,8 +52,11 @@ class Map {
   void SetPose(KeyframeId keyframe, const Rigid3& T_world_camera);
   void SetPosition(LandmarkId landmark, const Eigen::Vector3d& p_world);
   void SetAppearance(LandmarkId landmark, const LandmarkAppearance& appearance);
+  // From now on the keyframe can be found by its words.
   void SetWords(KeyframeId keyframe, std::shared_ptr<const BagOfWords> words);
   void CountSightings(LandmarkId landmark, int num_visible, int num_found);
+  // Moves everything at once and begins a new epoch. What is gone meanwhile is skipped.
+  void Correct(const MapCorrection& correction);
 
   // --- Shrinking
   // `drop`'s observations go to `keep` where the keyframe does not see `keep` already; `drop` then
@@ -73,6 +89,9 @@ class Map {
   std::vector<KeyframeId> CovisibleKeyframes(KeyframeId id,
                                              int min_shared,
                                              std::size_t max_count) const;
+  // All that any of these keyframes sees, ascending, each once. Keyframes that are gone see
+  // nothing.
+  std::vector<LandmarkId> LandmarksSeenBy(std::span<const KeyframeId> keyframes) const;
   // Landmarks of the keyframe with at least so many measurements.
   int NumTrackedLandmarks(KeyframeId id, int min_measurements) const;
   // The landmark's appearance from all its present observations.
@@ -81,6 +100,8 @@ class Map {
   std::size_t num_keyframes() const { return num_keyframes_; }
   std::size_t num_landmarks() const { return num_landmarks_; }
   const ScaleSpace& scale_space() const { return scale_space_; }
+  // The keyframes whose words are known, by word.
+  const KeyframeIndex& keyframe_index() const { return keyframe_index_; }
   // Grows with every edit.
   std::uint64_t version() const { return version_; }
   // Changes when the map was moved or cleared as a whole: what was computed from an older epoch is
@@ -109,10 +130,12 @@ class Map {
   void Unlink(Landmark& landmark, std::size_t index);
   void UpdateDistanceRange(const Landmark& landmark, LandmarkAppearance* appearance) const;
   void ReparentChildren(const Keyframe& erased);
+  std::vector<Rigid3> MotionOfKeyframes(const MapCorrection& correction) const;
 
   ScaleSpace scale_space_;
   std::vector<KeyframeSlot> keyframes_;  // By id.
   std::vector<LandmarkSlot> landmarks_;  // By id.
+  KeyframeIndex keyframe_index_;
   std::size_t num_keyframes_ = 0;
   std::size_t num_landmarks_ = 0;
   std::uint64_t version_ = 0;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "semslam/camera/pinhole_camera.h"
+
 namespace semslam {
 
 // An ideal (undistorted) pinhole camera with a virtual second camera to its right, which turns a
@@ -17,6 +19,10 @@ struct StereoCamera {
   double cy = 0;
   double bf = 0;  // Virtual baseline (m) times fx (px).
 };
+
+inline StereoCamera MakeStereoCamera(const PinholeCamera& camera, double baseline_times_fx) {
+  return {camera.fx(), camera.fy(), camera.cx(), camera.cy(), baseline_times_fx};
+}
 
 // Where a camera saw a point: two measured numbers, or three with depth.
 struct ImagePoint {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "semslam/base/id.h"
@@ -31,12 +32,17 @@ class LocalMap {
   const std::vector<Entry>& landmarks() const { return landmarks_; }  // Ascending ids.
   // The keyframe that shares most landmarks with the frame.
   KeyframeId reference_keyframe() const { return reference_; }
+  const Rigid3& T_world_reference() const { return T_world_reference_; }  // When it was copied.
 
  private:
   std::vector<KeyframeId> keyframes_;  // Ascending.
   std::vector<Entry> landmarks_;
   KeyframeId reference_;
+  Rigid3 T_world_reference_;
   std::uint64_t version_ = 0;
 };
+
+// The landmarks that these keyframes see, in ascending order.
+std::vector<LocalMap::Entry> CopyLandmarks(const Map& map, std::span<const KeyframeId> keyframes);
 
 }  // namespace semslam

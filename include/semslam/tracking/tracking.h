@@ -12,6 +12,7 @@
 #include "semslam/map/map.h"
 #include "semslam/optim/camera_model.h"
 #include "semslam/place/vocabulary.h"
+#include "semslam/tracking/frame_locator.h"
 #include "semslam/tracking/keyframe_policy.h"
 #include "semslam/tracking/local_map.h"
 #include "semslam/tracking/tracked_frame.h"
@@ -39,10 +40,11 @@ class Tracking {
         15.0F;  // Around the prediction from the last frame, at the finest level.
     int min_motion_matches =
         20;  // Fewer: search twice as wide, then fall back on the reference keyframe.
-    int min_reference_matches = 15;   // With the reference keyframe, by visual words.
-    int min_pose_inliers = 10;        // After optimising with either.
-    int min_inliers = 30;             // In the local map; fewer: lost.
-    int min_inliers_after_loss = 50;  // The same for the first second after being found again.
+    int min_reference_matches = 15;    // With the reference keyframe, by visual words.
+    int min_pose_inliers = 10;         // After optimising with either.
+    int min_inliers = 30;              // In the local map; fewer: lost.
+    int min_inliers_after_loss = 50;   // To be found again, and for the first second afterwards.
+    std::size_t max_places_tried = 6;  // In each lost frame; bounds its time.
     std::size_t min_keyframes_to_keep = 5;  // Lost with no more keyframes than these: start over.
     KeyframePolicy::Options keyframes;
     void Validate() const;  // Throws std::logic_error.
@@ -56,6 +58,7 @@ class Tracking {
     int num_inliers = 0;  // Landmarks that agree with the pose.
     std::optional<KeyframeId>
         new_keyframe;            // Inserted into the map with this frame; local mapping is due.
+    bool relocalized = false;    // The place was found again with this frame, after a loss.
     bool map_was_reset = false;  // Everything before this frame is void.
   };
 
@@ -70,21 +73,31 @@ class Tracking {
   Result Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
 
  private:
+  // A frame that was found in the map.
+  struct Located {
+    TrackedFrame frame;
+    int num_inliers = 0;
+    bool relocalized = false;
+  };
+
   Result Initialize(std::shared_ptr<const Frame> frame);
   void BringLastFrameUpToDate();
+  std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
+  bool HasMapWorthKeeping() const;
   std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
   std::optional<TrackedFrame> TrackWithMotion(const std::shared_ptr<const Frame>& frame) const;
   std::optional<TrackedFrame> TrackKeyframe(const std::shared_ptr<const Frame>& frame,
                                             KeyframeId keyframe) const;
-  std::optional<TrackedFrame> FindAgain(const std::shared_ptr<const Frame>& frame) const;
+  std::optional<TrackedFrame> Relocalize(const std::shared_ptr<const Frame>& frame) const;
   int TrackLocalMap(TrackedFrame* current);
-  Result Succeed(TrackedFrame current, int num_inliers, const MapperLoad& mapper);
+  Result Succeed(Located located, const MapperLoad& mapper);
   Result Fail(std::shared_ptr<const Frame> frame);
   KeyframePolicy::Situation Assess(const TrackedFrame& current,
                                    int num_inliers,
                                    KeyframeId reference,
                                    const MapperLoad& mapper) const;
   KeyframeId InsertKeyframe(TrackedFrame* current);
+  void FollowCorrection(const Map& map, TrackedFrame* current) const;
   void ApplySightings(Map& map);
 
   const Options options_;
@@ -93,10 +106,12 @@ class Tracking {
   const std::shared_ptr<const Vocabulary> vocabulary_;
   SharedMap& map_;
   const ScaleSpace scale_space_;
+  const FrameLocator locator_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;
+  std::uint64_t epoch_ = 0;    // Of the map in which the poses below are.
   TrackedFrame last_;          // The last frame that was tracked.
   KeyframeId last_reference_;  // last_ relative to this keyframe, see T_reference_last_.
   Rigid3 T_reference_last_;

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/tracking/frame_locator.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "semslam/base/check.h"
+#include "semslam/place/word_matcher.h"
+
+#include "tracking/frame_matching.h"
+
+namespace semslam {
+namespace {
+
+// A feature of the frame that seems to show a landmark, with depth.
+struct Pair {
+  int feature = 0;
+  TrackedPoint point;
+  Eigen::Vector3d p_camera;
+};
+
+// Whether a hypothesis explains a pair. Generous, because a motion from three measured depths is a
+// rough one: a degree off where the depth is 2 % off. The optimisation that follows is strict.
+class PairCheck {
+ public:
+  PairCheck(const PinholeCamera& camera, const ScaleSpace& scale_space, const Frame& frame)
+      : camera_(camera), scale_space_(scale_space), frame_(frame) {}
+
+  bool Agrees(const Rigid3& T_world_camera, const Pair& pair) const {
+    constexpr double kMaxPixels = 8;  // At the finest level.
+    constexpr double kMaxDepthError = 0.05;
+    constexpr double kDepthErrorGrowth = 0.02;  // 1 / m: the depth noise grows with the square.
+    const Eigen::Vector3d p_camera =
+        T_world_camera.rotation.conjugate() * (pair.point.p_world - T_world_camera.translation);
+    const double z = pair.p_camera.z();
+    if (p_camera.z() <= 0) return false;
+    if (std::abs(p_camera.z() - z) > kMaxDepthError + kDepthErrorGrowth * z * z) return false;
+    const Keypoint& keypoint = frame_.keypoints[pair.feature];
+    const double error = (camera_.Project(p_camera) - keypoint.pixel.cast<double>()).norm();
+    return error <= kMaxPixels * scale_space_.PixelSize(keypoint.octave);
+  }
+
+ private:
+  const PinholeCamera& camera_;
+  const ScaleSpace& scale_space_;
+  const Frame& frame_;
+};
+
+}  // namespace
+
+// What is needed of a keyframe to recognise it.
+struct FrameLocator::Place {
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const BagOfWords> words;
+  std::vector<std::optional<TrackedPoint>> points;  // One a feature.
+};
+
+void FrameLocator::Options::Validate() const {
+  SEMSLAM_CHECK(min_word_matches > 0) << min_word_matches;
+  SEMSLAM_CHECK(min_pose_inliers > 0 && min_inliers > 0) << min_pose_inliers << ", " << min_inliers;
+  ransac.Validate();
+}
+
+FrameLocator::FrameLocator(const Options& options,
+                           const PinholeCamera& camera,
+                           double baseline_times_fx,
+                           std::shared_ptr<const Vocabulary> vocabulary,
+                           const SharedMap& map)
+    : options_(options),
+      camera_(camera),
+      stereo_(MakeStereoCamera(camera, baseline_times_fx)),
+      vocabulary_(std::move(vocabulary)),
+      map_(map),
+      scale_space_(map.Read([](const Map& m) { return m.scale_space(); })) {
+  options_.Validate();
+  SEMSLAM_CHECK(vocabulary_ != nullptr);
+}
+
+std::optional<TrackedFrame> FrameLocator::Locate(const std::shared_ptr<const Frame>& frame,
+                                                 const BagOfWords& words,
+                                                 KeyframeId place_id) const {
+  const std::optional<Place> place = CopyPlace(place_id);
+  if (!place) return std::nullopt;
+  std::optional<TrackedFrame> located = MatchPlace(frame, words, *place);
+  if (!located) return std::nullopt;
+  // Once more from the better pose if it is not enough yet.
+  int num_inliers = SearchNeighbourhood(place_id, &*located);
+  if (num_inliers >= options_.min_pose_inliers && num_inliers < options_.min_inliers) {
+    num_inliers = SearchNeighbourhood(place_id, &*located);
+  }
+  if (num_inliers < options_.min_inliers) return std::nullopt;
+  return located;
+}
+
+std::optional<FrameLocator::Place> FrameLocator::CopyPlace(KeyframeId keyframe_id) const {
+  return map_.Read([&](const Map& map) -> std::optional<Place> {
+    const Keyframe* keyframe = map.FindKeyframe(keyframe_id);
+    if (keyframe == nullptr) return std::nullopt;
+    Place place{keyframe->frame, keyframe->words, {}};
+    place.points.resize(keyframe->landmarks.size());
+    for (std::size_t i = 0; i < place.points.size(); ++i) {
+      if (const std::optional<LandmarkId> id = keyframe->landmarks[i]) {
+        place.points[i] = TrackedPoint{id, map.landmark(*id).appearance.p_world};
+      }
+    }
+    return place;
+  });
+}
+
+// The pose from pairs with equal words: by consensus, then optimised.
+std::optional<TrackedFrame> FrameLocator::MatchPlace(const std::shared_ptr<const Frame>& frame,
+                                                     const BagOfWords& words,
+                                                     const Place& place) const {
+  std::vector<std::uint8_t> has_landmark(place.points.size(), 0);
+  for (std::size_t i = 0; i < has_landmark.size(); ++i) has_landmark[i] = place.points[i] ? 1 : 0;
+  const BagOfWords place_words =
+      place.words ? *place.words : vocabulary_->Transform(place.frame->descriptors);
+  const std::vector<FeatureMatch> matches =
+      MatchByWords({*place.frame, place_words, has_landmark}, {*frame, words, {}}, {});
+  if (static_cast<int>(matches.size()) < options_.min_word_matches) return std::nullopt;
+
+  std::vector<Pair> pairs;
+  std::vector<Eigen::Vector3d> p_world;
+  std::vector<Eigen::Vector3d> p_camera;
+  for (const FeatureMatch& match : matches) {
+    const Keypoint& keypoint = frame->keypoints[match.feature];
+    if (!keypoint.has_depth()) continue;
+    p_world.push_back(place.points[match.query]->p_world);
+    p_camera.push_back(camera_.Unproject(keypoint.pixel.cast<double>(), keypoint.depth));
+    pairs.push_back({match.feature, *place.points[match.query], p_camera.back()});
+  }
+  const PairCheck check(camera_, scale_space_, *frame);
+  const std::optional<RigidConsensus> consensus = FindRigidConsensus(
+      p_world, p_camera,
+      [&](const Rigid3& T_world_camera, std::size_t i) {
+        return check.Agrees(T_world_camera, pairs[i]);
+      },
+      options_.ransac);
+  if (!consensus) return std::nullopt;
+
+  TrackedFrame located = EmptyFrame(frame, consensus->T_a_b);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (consensus->is_inlier[i] != 0) located.points[pairs[i].feature] = pairs[i].point;
+  }
+  if (OptimizeAndDropOutliers(stereo_, scale_space_, &located) < options_.min_pose_inliers) {
+    return std::nullopt;
+  }
+  return located;
+}
+
+// Returns how many landmarks of the place and around it agree with the pose.
+int FrameLocator::SearchNeighbourhood(KeyframeId place, TrackedFrame* located) const {
+  constexpr float kRadiusFactor = 4.0F;  // Windows of 10 pixels and more.
+  const std::vector<LocalMap::Entry> landmarks = map_.Read([&](const Map& map) {
+    if (map.FindKeyframe(place) == nullptr) return std::vector<LocalMap::Entry>();
+    std::vector<KeyframeId> keyframes = map.CovisibleKeyframes(place, 1, options_.num_neighbours);
+    keyframes.push_back(place);
+    return CopyLandmarks(map, keyframes);
+  });
+  SearchLandmarks(landmarks, {camera_, stereo_.bf, scale_space_}, kRadiusFactor, located);
+  return OptimizeAndDropOutliers(stereo_, scale_space_, located);
+}
+
+}  // namespace semslam
