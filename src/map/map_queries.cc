@@ -135,6 +135,14 @@ std::vector<LandmarkId> Map::LandmarksSeenBy(std::span<const KeyframeId> keyfram
   return ids;
 }
 
+std::vector<LandmarkCopy> Map::CopyLandmarksSeenBy(std::span<const KeyframeId> keyframes) const {
+  const std::vector<LandmarkId> ids = LandmarksSeenBy(keyframes);
+  std::vector<LandmarkCopy> copies;
+  copies.reserve(ids.size());
+  for (const LandmarkId id : ids) copies.push_back({id, landmark(id).appearance});
+  return copies;
+}
+
 int Map::NumTrackedLandmarks(KeyframeId id, int min_measurements) const {
   int count = 0;
   for (const std::optional<LandmarkId> landmark_id : keyframe(id).landmarks) {

@@ -3,12 +3,13 @@
 
 #include "semslam/mapping/local_mapping.h"
 
+#include <array>
 #include <utility>
 
 #include "semslam/base/check.h"
 #include "semslam/base/stopwatch.h"
+#include "semslam/mapping/appearance_update.h"
 
-#include "mapping/appearance_update.h"
 #include "mapping/keyframe_culling.h"
 #include "mapping/landmark_fusion.h"
 #include "mapping/local_bundle.h"
@@ -59,7 +60,8 @@ LocalMapping::Report LocalMapping::Process(KeyframeId keyframe,
     report.num_fused = FuseWithNeighbours(
         context, keyframe, {options_.num_neighbours, options_.num_second_neighbours});
   }
-  UpdateAppearances(map_, LandmarksOf(map_, keyframe));
+  UpdateAppearances(
+      map_, map_.Read([&](const Map& map) { return map.LandmarksSeenBy(std::array{keyframe}); }));
   if (!should_stop()) {
     const LocalBundleReport bundle = AdjustNeighbourhood(
         context, keyframe, {options_.min_shared, options_.max_adjusted_keyframes, options_.bundle},
@@ -77,10 +79,6 @@ LocalMapping::Report LocalMapping::Process(KeyframeId keyframe,
 // False if the keyframe is gone: the map was cleared since it was queued.
 bool LocalMapping::LookUpWords(KeyframeId keyframe) {
   const std::shared_ptr<const Frame> frame = map_.Read([&](const Map& map) {
-    if (map.epoch() != epoch_) {
-      epoch_ = map.epoch();
-      recent_landmarks_.clear();
-    }
     const Keyframe* found = map.FindKeyframe(keyframe);
     return found == nullptr ? nullptr : found->frame;
   });

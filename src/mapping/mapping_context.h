@@ -16,16 +16,4 @@ struct MappingContext {
   SharedMap& map;
 };
 
-// A keyframe copied out of the map.
-struct KeyframeCopy {
-  KeyframeId id;
-  std::shared_ptr<const Frame> frame;
-  std::shared_ptr<const BagOfWords> words;
-  Rigid3 T_world_camera;
-  std::vector<std::optional<LandmarkId>> landmarks;
-};
-inline KeyframeCopy CopyKeyframe(const Keyframe& keyframe) {
-  return {keyframe.id, keyframe.frame, keyframe.words, keyframe.T_world_camera, keyframe.landmarks};
-}
-
 }  // namespace semslam

@@ -245,7 +245,9 @@ std::vector<LandmarkId> TriangulateWithNeighbours(const MappingContext& context,
   for (std::size_t i = 0; i < copy.neighbours.size(); ++i) {
     if (i > 0 && should_stop()) break;
     // Copied anew for each: the last neighbour's landmarks occupy features now.
+    std::uint64_t epoch = 0;
     const auto pair = context.map.Read([&](const Map& map) {
+      epoch = map.epoch();
       std::vector<KeyframeCopy> copies;
       for (const KeyframeId id : {keyframe_id, copy.neighbours[i]}) {
         const Keyframe* keyframe = map.FindKeyframe(id);
@@ -259,8 +261,10 @@ std::vector<LandmarkId> TriangulateWithNeighbours(const MappingContext& context,
     if (baseline < context.stereo.bf / context.stereo.fx) continue;  // Depth knows better.
     const std::vector<NewLandmark> points =
         TriangulatePair(context, copy.scale_space, pair[0], pair[1]);
-    const std::vector<LandmarkId> ids = context.map.Write(
-        [&](Map& map) { return Commit(map, keyframe_id, copy.neighbours[i], points); });
+    const std::vector<LandmarkId> ids = context.map.Write([&](Map& map) {
+      if (map.epoch() != epoch) return std::vector<LandmarkId>();  // Moved as a whole meanwhile.
+      return Commit(map, keyframe_id, copy.neighbours[i], points);
+    });
     created.insert(created.end(), ids.begin(), ids.end());
   }
   return created;

@@ -154,11 +154,11 @@ std::optional<TrackedFrame> FrameLocator::MatchPlace(const std::shared_ptr<const
 // Returns how many landmarks of the place and around it agree with the pose.
 int FrameLocator::SearchNeighbourhood(KeyframeId place, TrackedFrame* located) const {
   constexpr float kRadiusFactor = 4.0F;  // Windows of 10 pixels and more.
-  const std::vector<LocalMap::Entry> landmarks = map_.Read([&](const Map& map) {
-    if (map.FindKeyframe(place) == nullptr) return std::vector<LocalMap::Entry>();
+  const std::vector<LandmarkCopy> landmarks = map_.Read([&](const Map& map) {
+    if (map.FindKeyframe(place) == nullptr) return std::vector<LandmarkCopy>();
     std::vector<KeyframeId> keyframes = map.CovisibleKeyframes(place, 1, options_.num_neighbours);
     keyframes.push_back(place);
-    return CopyLandmarks(map, keyframes);
+    return map.CopyLandmarksSeenBy(keyframes);
   });
   SearchLandmarks(landmarks, {camera_, stereo_.bf, scale_space_}, kRadiusFactor, located);
   return OptimizeAndDropOutliers(stereo_, scale_space_, located);

@@ -83,7 +83,7 @@ TrackedFrame MatchLastFrame(const TrackedFrame& last,
   return matched;
 }
 
-std::vector<LandmarkId> SearchLandmarks(const std::vector<LocalMap::Entry>& landmarks,
+std::vector<LandmarkId> SearchLandmarks(const std::vector<LandmarkCopy>& landmarks,
                                         const ProjectionCamera& camera,
                                         float radius_factor,
                                         TrackedFrame* frame) {
@@ -109,7 +109,7 @@ std::vector<LandmarkId> SearchLandmarks(const std::vector<LocalMap::Entry>& land
   }
   for (const FeatureMatch& match :
        MatchProjectedPoints(projections, *frame->frame, is_taken, {.max_ratio = kMaxRatio})) {
-    const LocalMap::Entry& entry = landmarks[searched[match.query]];
+    const LandmarkCopy& entry = landmarks[searched[match.query]];
     frame->points[match.feature] = TrackedPoint{entry.id, entry.appearance.p_world};
   }
   std::vector<LandmarkId> ids;

@@ -9,7 +9,6 @@
 #include "semslam/features/projection_matcher.h"
 #include "semslam/map/landmark_projection.h"
 #include "semslam/optim/camera_model.h"
-#include "semslam/tracking/local_map.h"
 #include "semslam/tracking/tracked_frame.h"
 
 namespace semslam {
@@ -28,7 +27,7 @@ TrackedFrame MatchLastFrame(const TrackedFrame& last,
 // is, and assigns the features that show them. The search window is `radius_factor` times 2.5
 // pixels of the expected level where the landmark is seen as usual, times 4 where more from the
 // side. Returns the landmarks that were searched.
-std::vector<LandmarkId> SearchLandmarks(const std::vector<LocalMap::Entry>& landmarks,
+std::vector<LandmarkId> SearchLandmarks(const std::vector<LandmarkCopy>& landmarks,
                                         const ProjectionCamera& camera,
                                         float radius_factor,
                                         TrackedFrame* frame);

@@ -47,14 +47,6 @@ std::vector<KeyframeId> WithNeighbours(const Map& map, const std::map<KeyframeId
 
 }  // namespace
 
-std::vector<LocalMap::Entry> CopyLandmarks(const Map& map, std::span<const KeyframeId> keyframes) {
-  const std::vector<LandmarkId> ids = map.LandmarksSeenBy(keyframes);
-  std::vector<LocalMap::Entry> entries;
-  entries.reserve(ids.size());
-  for (const LandmarkId id : ids) entries.push_back({id, map.landmark(id).appearance});
-  return entries;
-}
-
 bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
   return shared_map.Read([&](const Map& map) {
     const std::map<KeyframeId, int> votes = CountVotes(map, frame);
@@ -65,7 +57,7 @@ bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
     T_world_reference_ = map.keyframe(reference_).T_world_camera;
     std::vector<KeyframeId> keyframes = WithNeighbours(map, votes);
     if (version_ == map.version() && keyframes == keyframes_) return true;
-    landmarks_ = CopyLandmarks(map, keyframes);
+    landmarks_ = map.CopyLandmarksSeenBy(keyframes);
     keyframes_ = std::move(keyframes);
     version_ = map.version();
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "semslam/base/random.h"
@@ -31,10 +32,11 @@ class SyntheticWorld {
  public:
   struct Options {
     int num_points = 3000;
-    int num_flips = 6;       // Bits of each descriptor that differ from the point's own, at most.
-    double pixel_noise = 0;  // Standard deviation, pixels of the feature's level.
-    double depth_share = 1;  // Of the points that have depth; the same ones in every frame.
-    double wrong_share = 0;  // Of the features, those that sit where their point is not.
+    int num_flips = 6;        // Bits of each descriptor that differ from the point's own, at most.
+    double pixel_noise = 0;   // Standard deviation, pixels of the feature's level.
+    double depth_share = 1;   // Of the points that have depth; the same ones in every frame.
+    double wrong_share = 0;   // Of the features, those that sit where their point is not.
+    bool all_around = false;  // Points on all sides of the origin, instead of before it.
     std::uint64_t seed = 1;
   };
 
@@ -47,6 +49,11 @@ class SyntheticWorld {
     for (int i = 0; i < options.num_points; ++i) {
       Point point;
       point.p_world = {random.Uniform(-3, 3), random.Uniform(-2.2, 2.2), random.Uniform(1.6, 3.2)};
+      if (options.all_around) {
+        const double angle = random.Uniform(0, 2 * std::numbers::pi);
+        const double radius = random.Uniform(2.6, 3.6);
+        point.p_world = {radius * std::sin(angle), random.Uniform(-2, 2), radius * std::cos(angle)};
+      }
       // At this distance the point is found at the finest level.
       const double level = random.Uniform(0, 5);
       point.reference_distance = point.p_world.norm() * std::pow(ScaleSpace().scale_factor, level);
@@ -103,6 +110,11 @@ class SyntheticWorld {
   std::shared_ptr<const Vocabulary> Train() const {
     std::vector<std::vector<Descriptor>> images;
     for (int i = 0; i < 4; ++i) images.push_back(LookAlongPath(25 * i).frame->descriptors);
+    for (int i = 0; options_.all_around && i < 8; ++i) {
+      const Rigid3 T_world_camera{ExpSO3({0, i * std::numbers::pi / 4, 0}),
+                                  Eigen::Vector3d::Zero()};
+      images.push_back(Look(i, T_world_camera).frame->descriptors);
+    }
     const VocabularyTrainingOptions options{.branching = 8, .depth = 3, .max_iterations = 4};
     return std::make_shared<const Vocabulary>(TrainVocabulary(images, options, 1));
   }

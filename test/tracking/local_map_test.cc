@@ -63,7 +63,7 @@ class LocalMapTest : public ::testing::Test {
   }
   std::vector<LandmarkId> Ids() const {
     std::vector<LandmarkId> ids;
-    for (const LocalMap::Entry& entry : local_map_.landmarks()) ids.push_back(entry.id);
+    for (const LandmarkCopy& entry : local_map_.landmarks()) ids.push_back(entry.id);
     return ids;
   }
 
@@ -91,7 +91,7 @@ TEST_F(LocalMapTest, TheReferenceIsTheKeyframeThatSharesMost) {
 TEST_F(LocalMapTest, CopiesTheLandmarksAsTheyAre) {
   ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
   map_.Read([&](const Map& map) {
-    for (const LocalMap::Entry& entry : local_map_.landmarks()) {
+    for (const LandmarkCopy& entry : local_map_.landmarks()) {
       EXPECT_EQ(entry.appearance.p_world, map.landmark(entry.id).appearance.p_world);
       EXPECT_EQ(entry.appearance.descriptor, map.landmark(entry.id).appearance.descriptor);
     }
@@ -100,7 +100,7 @@ TEST_F(LocalMapTest, CopiesTheLandmarksAsTheyAre) {
 
 TEST_F(LocalMapTest, SkipsTheCopyIfNothingHasChanged) {
   ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
-  const LocalMap::Entry* const copy = local_map_.landmarks().data();
+  const LandmarkCopy* const copy = local_map_.landmarks().data();
   ASSERT_TRUE(local_map_.Update(map_, FrameOf({own_[0][1], own_[0][2]})));
   EXPECT_EQ(local_map_.landmarks().data(), copy);
 }

@@ -29,6 +29,12 @@ struct LandmarkAppearance {
   Descriptor descriptor;  // The observed one that is nearest to all others.
 };
 
+// A landmark as it is copied out of the map.
+struct LandmarkCopy {
+  LandmarkId id;
+  LandmarkAppearance appearance;
+};
+
 struct Landmark {
   LandmarkId id;
   LandmarkAppearance appearance;

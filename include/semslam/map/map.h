@@ -92,6 +92,7 @@ class Map {
   // All that any of these keyframes sees, ascending, each once. Keyframes that are gone see
   // nothing.
   std::vector<LandmarkId> LandmarksSeenBy(std::span<const KeyframeId> keyframes) const;
+  std::vector<LandmarkCopy> CopyLandmarksSeenBy(std::span<const KeyframeId> keyframes) const;
   // Landmarks of the keyframe with at least so many measurements.
   int NumTrackedLandmarks(KeyframeId id, int min_measurements) const;
   // The landmark's appearance from all its present observations.

@@ -72,7 +72,6 @@ class LocalMapping {
   const StereoCamera stereo_;
   const std::shared_ptr<const Vocabulary> vocabulary_;
   SharedMap& map_;
-  std::uint64_t epoch_ = 0;
   std::deque<LandmarkId> recent_landmarks_;  // On probation.
 };
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "semslam/base/id.h"
@@ -18,31 +17,23 @@ namespace semslam {
 // without the map's lock.
 class LocalMap {
  public:
-  struct Entry {
-    LandmarkId id;
-    LandmarkAppearance appearance;
-  };
-
   // Takes the keyframes that share landmarks with the frame, their neighbours in covisibility and
   // in the spanning tree (80 at most), and copies the landmarks of all of them. The copy is skipped
   // if neither these keyframes nor the map has changed. False if the frame shares no landmark with
   // any keyframe: everything stays as it was.
   bool Update(const SharedMap& map, const TrackedFrame& frame);
 
-  const std::vector<Entry>& landmarks() const { return landmarks_; }  // Ascending ids.
+  const std::vector<LandmarkCopy>& landmarks() const { return landmarks_; }  // Ascending ids.
   // The keyframe that shares most landmarks with the frame.
   KeyframeId reference_keyframe() const { return reference_; }
   const Rigid3& T_world_reference() const { return T_world_reference_; }  // When it was copied.
 
  private:
   std::vector<KeyframeId> keyframes_;  // Ascending.
-  std::vector<Entry> landmarks_;
+  std::vector<LandmarkCopy> landmarks_;
   KeyframeId reference_;
   Rigid3 T_world_reference_;
   std::uint64_t version_ = 0;
 };
-
-// The landmarks that these keyframes see, in ascending order.
-std::vector<LocalMap::Entry> CopyLandmarks(const Map& map, std::span<const KeyframeId> keyframes);
 
 }  // namespace semslam

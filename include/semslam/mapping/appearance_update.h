@@ -9,11 +9,9 @@
 
 namespace semslam {
 
-// The landmarks that a keyframe sees; none if it is gone.
-std::vector<LandmarkId> LandmarksOf(const SharedMap& map, KeyframeId keyframe);
-
 // Brings descriptor, viewing direction and distance range of landmarks in step with their
-// observations and positions. Those that are gone are skipped.
+// observations and positions. Those that are gone are skipped. Locks the map for short times only,
+// and does not undo a correction of the map that comes between.
 void UpdateAppearances(SharedMap& map, const std::vector<LandmarkId>& landmarks);
 
 }  // namespace semslam

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "semslam/loop/loop_closing.h"
+
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "semslam/mapping/full_bundle.h"
+
+#include "loop/ring_walk.h"
+#include "support/matchers.h"
+
+namespace semslam {
+namespace {
+
+using testing::Rigid3Near;
+using testing::RingWalk;
+using testing::SyntheticWorld;
+
+// Six degrees and half a metre a round.
+Vector6d SomeDrift() {
+  Vector6d drift;
+  drift << 0.0006, 0.003, 0.0004, 0.012, 0.004, 0.008;
+  return drift;
+}
+
+class LoopClosingTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<LoopClosing> MakeLoopClosing(RingWalk& walk) {
+    return std::make_unique<LoopClosing>(LoopClosing::Options{}, walk.camera(),
+                                         SyntheticWorld::kBaselineTimesFx, walk.vocabulary(),
+                                         walk.map());
+  }
+  // All keyframes in their order; the loops that were closed.
+  std::vector<LoopClosing::Loop> ProcessAll(RingWalk& walk) {
+    const auto loop_closing = MakeLoopClosing(walk);
+    std::vector<LoopClosing::Loop> loops;
+    const auto ids = walk.map().Read([](const Map& map) { return map.KeyframeIds(); });
+    for (const KeyframeId id : ids) {
+      if (const auto loop = loop_closing->Process(id)) loops.push_back(*loop);
+      walk.map().Read([](const Map& map) { map.CheckConsistency(); });
+    }
+    return loops;
+  }
+};
+
+TEST_F(LoopClosingTest, ARoundIsClosedAndItsDriftIsGone) {
+  RingWalk walk({.drift_a_step = SomeDrift()});
+  const double before = walk.LargestError();
+  ASSERT_GT(before, 0.2) << "the test drifts";
+  const std::uint64_t epoch = walk.map().Read([](const Map& map) { return map.epoch(); });
+  const std::vector<LoopClosing::Loop> loops = ProcessAll(walk);
+  ASSERT_EQ(loops.size(), 1u);
+  EXPECT_GE(loops[0].keyframe.value, 34u);
+  EXPECT_LE(loops[0].place.value, 10u);
+  EXPECT_GT(loops[0].num_matches, 40);
+  EXPECT_GT(loops[0].num_fused, 40);
+  EXPECT_GT(loops[0].distance, 0.1);
+  std::printf("PG %g -> %g, end %g\n", before, walk.LargestError(), walk.ErrorOf(static_cast<int>(loops[0].keyframe.value)));
+  EXPECT_LT(walk.LargestError(), before / 3);
+  EXPECT_LT(walk.ErrorOf(static_cast<int>(loops[0].keyframe.value)), 0.03) << "the ends meet";
+  EXPECT_THAT(walk.map().Read([](const Map& map) { return *map.ResolvePose(KeyframeId{0}); }),
+              Rigid3Near(Rigid3(), 0, 0))
+      << "the first keyframe is the world";
+  EXPECT_NE(walk.map().Read([](const Map& map) { return map.epoch(); }), epoch);
+}
+
+TEST_F(LoopClosingTest, BothEndsOfTheLoopShareLandmarksAfterwards) {
+  RingWalk walk({.drift_a_step = SomeDrift()});
+  const std::vector<LoopClosing::Loop> loops = ProcessAll(walk);
+  ASSERT_EQ(loops.size(), 1u);
+  walk.map().Read([&](const Map& map) {
+    int num_shared = 0;
+    for (const CovisibleKeyframe& covisible : map.keyframe(loops[0].keyframe).covisible) {
+      if (covisible.id == loops[0].place) num_shared = covisible.num_shared;
+    }
+    EXPECT_GT(num_shared, 40);
+  });
+}
+
+TEST_F(LoopClosingTest, FullBundleAdjustmentLeavesLessThanTheNoise) {
+  RingWalk walk({.drift_a_step = SomeDrift()});
+  ASSERT_EQ(ProcessAll(walk).size(), 1u);
+  const double before = walk.LargestError();
+  const StereoCamera stereo = MakeStereoCamera(walk.camera(), SyntheticWorld::kBaselineTimesFx);
+  const FullBundleReport report = AdjustWholeMap(walk.map(), stereo, {});
+  EXPECT_TRUE(report.finished);
+  EXPECT_EQ(report.num_keyframes, 46u);
+  EXPECT_LT(report.final_cost, report.initial_cost);
+  std::printf("BA %g -> %g\n", before, walk.LargestError());
+  for (int i=0;i<46;i+=5) std::printf("%g ", walk.ErrorOf(i));
+  EXPECT_LT(walk.LargestError(), before);
+  EXPECT_LT(walk.LargestError(), 0.02);
+  walk.map().Read([](const Map& map) { map.CheckConsistency(); });
+}
+
+TEST_F(LoopClosingTest, WhatCameDuringTheCorrectionIsCarriedAlong) {
+  // The newest keyframes are in the map, but not yet seen by loop closing: as if it were busy.
+  RingWalk walk({.num_keyframes = 52, .drift_a_step = SomeDrift()});
+  const double before = walk.ErrorOf(51);
+  const auto loop_closing = MakeLoopClosing(walk);
+  bool is_closed = false;
+  for (std::uint32_t i = 0; i < 52 && !is_closed; ++i) {
+    is_closed = loop_closing->Process(KeyframeId{i}).has_value();
+  }
+  ASSERT_TRUE(is_closed);
+  EXPECT_LT(walk.ErrorOf(51), before / 2);
+}
+
+TEST_F(LoopClosingTest, WithoutAReturnThereIsNoLoop) {
+  RingWalk walk({.num_keyframes = 26, .drift_a_step = SomeDrift()});
+  EXPECT_TRUE(ProcessAll(walk).empty());
+}
+
+TEST_F(LoopClosingTest, APlaceThatLooksAlikeButIsBuiltDifferentlyIsNoLoop) {
+  // The first keyframes get the words and descriptors of the last ones, their points stay theirs.
+  RingWalk walk({.num_keyframes = 30, .drift_a_step = SomeDrift()});
+  const auto frames = walk.map().Read([](const Map& map) {
+    std::vector<KeyframeCopy> copies;
+    for (const KeyframeId id : map.KeyframeIds()) copies.push_back(CopyKeyframe(map.keyframe(id)));
+    return copies;
+  });
+  SharedMap look_alike;
+  Random random(5);
+  for (const KeyframeCopy& copy : frames) {
+    auto frame = std::make_shared<Frame>(*copy.frame);
+    const bool is_return = copy.id.value >= 24;
+    if (is_return) {
+      // What the first keyframes show, elsewhere in the image and at other depths.
+      const Frame& first = *frames[copy.id.value - 24].frame;
+      *frame = first;
+      for (Keypoint& keypoint : frame->keypoints) {
+        keypoint.pixel = {static_cast<float>(random.Uniform(20, 620)),
+                          static_cast<float>(random.Uniform(20, 460))};
+        keypoint.depth = static_cast<float>(random.Uniform(1, 4));
+        keypoint.right_x = keypoint.pixel.x() - 40 / keypoint.depth;
+      }
+      frame->grid = FeatureGrid(frame->keypoints, walk.camera().ideal_bounds());
+    }
+    look_alike.Write([&](Map& map) {
+      const KeyframeId id = map.AddKeyframe(frame, copy.T_world_camera);
+      for (std::size_t i = 0; i < frame->keypoints.size(); i += 2) {
+        const Keypoint& keypoint = frame->keypoints[i];
+        map.AddLandmark(copy.T_world_camera *
+                            walk.camera().Unproject(keypoint.pixel.cast<double>(), keypoint.depth),
+                        {id, static_cast<int>(i)});
+      }
+      map.SetWords(
+          id, std::make_shared<const BagOfWords>(walk.vocabulary()->Transform(frame->descriptors)));
+      map.ChooseParent(id);
+    });
+  }
+  LoopClosing loop_closing({}, walk.camera(), SyntheticWorld::kBaselineTimesFx, walk.vocabulary(),
+                           look_alike);
+  for (const KeyframeCopy& copy : frames) EXPECT_FALSE(loop_closing.Process(copy.id));
+}
+
+TEST_F(LoopClosingTest, KeyframesThatAreGoneOrWithoutWordsArePassedOver) {
+  RingWalk walk({.num_keyframes = 5});
+  const auto loop_closing = MakeLoopClosing(walk);
+  EXPECT_FALSE(loop_closing->Process(KeyframeId{999}));
+  walk.map().Write([](Map& map) { map.SetWords(KeyframeId{4}, nullptr); });
+  EXPECT_FALSE(loop_closing->Process(KeyframeId{4}));
+}
+
+TEST_F(LoopClosingTest, RefusesSenselessOptions) {
+  RingWalk walk({.num_keyframes = 2});
+  LoopClosing::Options options;
+  options.num_consistent = 0;
+  EXPECT_THROW(LoopClosing(options, walk.camera(), 40, walk.vocabulary(), walk.map()),
+               std::logic_error);
+  EXPECT_THROW(LoopClosing({}, walk.camera(), 40, nullptr, walk.map()), std::logic_error);
+}
+
+TEST_F(LoopClosingTest, GivesTheSameBitsTwice) {
+  RingWalk a({.drift_a_step = SomeDrift()});
+  RingWalk b({.drift_a_step = SomeDrift()});
+  ProcessAll(a);
+  ProcessAll(b);
+  a.map().Read([&](const Map& map_a) {
+    b.map().Read([&](const Map& map_b) {
+      ASSERT_EQ(map_a.LandmarkIds(), map_b.LandmarkIds());
+      for (const KeyframeId id : map_a.KeyframeIds()) {
+        EXPECT_EQ(map_a.keyframe(id).T_world_camera.ToMatrix(),
+                  map_b.keyframe(id).T_world_camera.ToMatrix());
+      }
+      for (const LandmarkId id : map_a.LandmarkIds()) {
+        ASSERT_EQ(map_a.landmark(id).appearance.p_world, map_b.landmark(id).appearance.p_world);
+      }
+    });
+  });
+}
+
+class FullBundleTest : public LoopClosingTest {};
+
+TEST_F(FullBundleTest, IsStoppedWithoutATrace) {
+  RingWalk walk({.num_keyframes = 12, .drift_a_step = SomeDrift()});
+  const StereoCamera stereo = MakeStereoCamera(walk.camera(), SyntheticWorld::kBaselineTimesFx);
+  const std::uint64_t version = walk.map().Read([](const Map& map) { return map.version(); });
+  BundleOptions options;
+  int num_asked = 0;
+  options.should_stop = [&] { return ++num_asked > 2; };
+  EXPECT_FALSE(AdjustWholeMap(walk.map(), stereo, options).finished);
+  EXPECT_EQ(walk.map().Read([](const Map& map) { return map.version(); }), version);
+}
+
+TEST_F(FullBundleTest, GivesWayToACorrectionThatComesBetween) {
+  RingWalk walk({.num_keyframes = 12, .drift_a_step = SomeDrift()});
+  const StereoCamera stereo = MakeStereoCamera(walk.camera(), SyntheticWorld::kBaselineTimesFx);
+  BundleOptions options;
+  int num_asked = 0;
+  options.should_stop = [&] {
+    if (++num_asked == 2) walk.map().Write([](Map& map) { map.Correct({}); });
+    return false;
+  };
+  EXPECT_FALSE(AdjustWholeMap(walk.map(), stereo, options).finished);
+  EXPECT_EQ(num_asked, 2) << "it notices at once";
+}
+
+TEST_F(FullBundleTest, OfAnEmptyMapIsNothing) {
+  SharedMap map;
+  EXPECT_FALSE(AdjustWholeMap(map, {500, 500, 320, 240, 40}, {}).finished);
+}
+
+}  // namespace
+}  // namespace semslam

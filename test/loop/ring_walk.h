@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "semslam/map/map.h"
+
+#include "support/synthetic_frames.h"
+
+namespace semslam::testing {
+
+// A camera that turns on a small circle inside a world that is all around it, more than once, and
+// drifts: a map with a loop to close, whose truth is known. Keyframe i of the map is number i.
+class RingWalk {
+ public:
+  struct Options {
+    int num_keyframes_a_round = 36;
+    int num_keyframes = 46;
+    // Error of each step: rotation vector, translation.
+    Vector6d drift_a_step = Vector6d::Zero();
+    double pixel_noise = 0.5;
+  };
+
+  explicit RingWalk(const Options& options)
+      : options_(options),
+        world_({.num_points = 8000, .pixel_noise = options.pixel_noise, .all_around = true}),
+        vocabulary_(world_.Train()),
+        map_(std::make_unique<SharedMap>()) {
+    Rigid3 T_world_camera;
+    for (int i = 0; i < options.num_keyframes; ++i) {
+      if (i > 0) {
+        T_world_camera =
+            T_world_camera * Retract(Truth(i - 1).Inverse() * Truth(i), options.drift_a_step);
+      }
+      Add(i, T_world_camera);
+    }
+  }
+
+  SharedMap& map() { return *map_; }
+  const PinholeCamera& camera() const { return world_.camera(); }
+  std::shared_ptr<const Vocabulary> vocabulary() const { return vocabulary_; }
+  const SyntheticWorld& world() const { return world_; }
+
+  // Relative to the first keyframe, as the map is.
+  Rigid3 Truth(int keyframe) const { return PoseInWorld(0).Inverse() * PoseInWorld(keyframe); }
+  // How far a keyframe is from the truth, metres.
+  double ErrorOf(int keyframe) const {
+    const Rigid3 pose = map_->Read([&](const Map& map) {
+      return *map.ResolvePose(KeyframeId{static_cast<std::uint32_t>(keyframe)});
+    });
+    return (pose.translation - Truth(keyframe).translation).norm();
+  }
+  double LargestError() const {
+    double largest = 0;
+    for (int i = 0; i < options_.num_keyframes; ++i) largest = std::max(largest, ErrorOf(i));
+    return largest;
+  }
+  // The same point is one landmark only while it stays in view: odometry knows no return.
+  static constexpr int kMemory = 8;
+
+ private:
+  Rigid3 PoseInWorld(int keyframe) const {
+    const double angle = 2 * std::numbers::pi * keyframe / options_.num_keyframes_a_round;
+    return {ExpSO3({0, angle, 0}), 0.8 * Eigen::Vector3d(std::sin(angle), 0, std::cos(angle))};
+  }
+
+  void Add(int number, const Rigid3& T_world_camera) {
+    const SyntheticView view = world_.Look(number, PoseInWorld(number));
+    map_->Write([&](Map& map) {
+      const KeyframeId id = map.AddKeyframe(view.frame, T_world_camera);
+      for (std::size_t i = 0; i < view.points.size(); ++i) {
+        const auto feature = static_cast<int>(i);
+        const auto known = landmark_of_.find(view.points[i]);
+        if (known != landmark_of_.end() && known->second.last_seen + kMemory >= number) {
+          map.AddObservation(known->second.landmark, {id, feature});
+          known->second.last_seen = number;
+          continue;
+        }
+        const Keypoint& keypoint = view.frame->keypoints[i];
+        const Eigen::Vector3d p_world =
+            T_world_camera * camera().Unproject(keypoint.pixel.cast<double>(), keypoint.depth);
+        landmark_of_[view.points[i]] = {map.AddLandmark(p_world, {id, feature}), number};
+      }
+      map.SetWords(
+          id, std::make_shared<const BagOfWords>(vocabulary_->Transform(view.frame->descriptors)));
+      map.ChooseParent(id);
+    });
+  }
+
+  struct Known {
+    LandmarkId landmark;
+    int last_seen = 0;
+  };
+
+  Options options_;
+  SyntheticWorld world_;
+  std::shared_ptr<const Vocabulary> vocabulary_;
+  std::unique_ptr<SharedMap> map_;
+  std::map<int, Known> landmark_of_;  // By point of the world.
+};
+
+}  // namespace semslam::testing
