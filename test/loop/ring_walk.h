@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "semslam/map/map.h"
@@ -14,7 +15,8 @@
 namespace semslam::testing {
 
 // A camera that turns on a small circle inside a world that is all around it, more than once, and
-// drifts: a map with a loop to close, whose truth is known. Keyframe i of the map is number i.
+// drifts: a map with a loop to close, whose truth is known. Keyframe i of the map is number i; they
+// are added one by one, as local mapping hands them on.
 class RingWalk {
  public:
   struct Options {
@@ -29,15 +31,19 @@ class RingWalk {
       : options_(options),
         world_({.num_points = 8000, .pixel_noise = options.pixel_noise, .all_around = true}),
         vocabulary_(world_.Train()),
-        map_(std::make_unique<SharedMap>()) {
+        map_(std::make_unique<SharedMap>()) {}
+
+  bool is_finished() const { return num_added_ == options_.num_keyframes; }
+  KeyframeId AddKeyframe() {
+    const int i = num_added_++;
     Rigid3 T_world_camera;
-    for (int i = 0; i < options.num_keyframes; ++i) {
-      if (i > 0) {
-        T_world_camera =
-            T_world_camera * Retract(Truth(i - 1).Inverse() * Truth(i), options.drift_a_step);
-      }
-      Add(i, T_world_camera);
+    if (i > 0) {
+      // From where the map has the last one now: it may have been corrected.
+      T_world_camera =
+          PoseOf(i - 1) * Retract(Truth(i - 1).Inverse() * Truth(i), options_.drift_a_step);
     }
+    Add(i, T_world_camera);
+    return {static_cast<std::uint32_t>(i)};
   }
 
   SharedMap& map() { return *map_; }
@@ -49,14 +55,16 @@ class RingWalk {
   Rigid3 Truth(int keyframe) const { return PoseInWorld(0).Inverse() * PoseInWorld(keyframe); }
   // How far a keyframe is from the truth, metres.
   double ErrorOf(int keyframe) const {
-    const Rigid3 pose = map_->Read([&](const Map& map) {
+    return (PoseOf(keyframe).translation - Truth(keyframe).translation).norm();
+  }
+  Rigid3 PoseOf(int keyframe) const {
+    return map_->Read([&](const Map& map) {
       return *map.ResolvePose(KeyframeId{static_cast<std::uint32_t>(keyframe)});
     });
-    return (pose.translation - Truth(keyframe).translation).norm();
   }
   double LargestError() const {
     double largest = 0;
-    for (int i = 0; i < options_.num_keyframes; ++i) largest = std::max(largest, ErrorOf(i));
+    for (int i = 0; i < num_added_; ++i) largest = std::max(largest, ErrorOf(i));
     return largest;
   }
   // The same point is one landmark only while it stays in view: odometry knows no return.
@@ -74,10 +82,8 @@ class RingWalk {
       const KeyframeId id = map.AddKeyframe(view.frame, T_world_camera);
       for (std::size_t i = 0; i < view.points.size(); ++i) {
         const auto feature = static_cast<int>(i);
-        const auto known = landmark_of_.find(view.points[i]);
-        if (known != landmark_of_.end() && known->second.last_seen + kMemory >= number) {
-          map.AddObservation(known->second.landmark, {id, feature});
-          known->second.last_seen = number;
+        if (const auto known = FindKnown(map, view.points[i], number)) {
+          if (!map.Sees(id, *known)) map.AddObservation(*known, {id, feature});
           continue;
         }
         const Keypoint& keypoint = view.frame->keypoints[i];
@@ -91,6 +97,13 @@ class RingWalk {
     });
   }
 
+  std::optional<LandmarkId> FindKnown(const Map& map, int point, int number) {
+    const auto known = landmark_of_.find(point);
+    if (known == landmark_of_.end() || known->second.last_seen + kMemory < number) return {};
+    known->second.last_seen = number;
+    return map.ResolveLandmark(known->second.landmark);
+  }
+
   struct Known {
     LandmarkId landmark;
     int last_seen = 0;
@@ -100,6 +113,7 @@ class RingWalk {
   SyntheticWorld world_;
   std::shared_ptr<const Vocabulary> vocabulary_;
   std::unique_ptr<SharedMap> map_;
+  int num_added_ = 0;
   std::map<int, Known> landmark_of_;  // By point of the world.
 };
 
