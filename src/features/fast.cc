@@ -12,64 +12,55 @@
 
 #include "semslam/base/check.h"
 
+#include "features/simd_clones.h"
+
 namespace semslam {
 namespace {
 
-// Pixels side by side, worked on at once: GCC and Clang make vector instructions of it, SSE2 or
-// NEON.
-constexpr int kBlock = 16;
+// Pixels side by side, worked on at once: GCC and Clang make vector instructions of it, of AVX2,
+// SSE2 or NEON.
+constexpr int kBlock = 32;
 using Pixels = std::uint8_t __attribute__((vector_size(kBlock)));
 
 constexpr int kCircle = 16;
 constexpr int kArc = 9;
 
-Pixels Load(const std::uint8_t* first) {
+SEMSLAM_SIMD_INLINE Pixels Load(const std::uint8_t* first) {
   Pixels pixels;
   std::memcpy(&pixels, first, kBlock);
   return pixels;
 }
-Pixels All(int value) { return Pixels{} + static_cast<std::uint8_t>(value); }
-Pixels Min(Pixels a, Pixels b) { return a < b ? a : b; }
-Pixels Max(Pixels a, Pixels b) { return a > b ? a : b; }
+SEMSLAM_SIMD_INLINE Pixels All(int value) { return Pixels{} + static_cast<std::uint8_t>(value); }
+SEMSLAM_SIMD_INLINE Pixels Min(Pixels a, Pixels b) { return a < b ? a : b; }
+SEMSLAM_SIMD_INLINE Pixels Max(Pixels a, Pixels b) { return a > b ? a : b; }
 // a - b, or 0 where that is negative.
-Pixels Excess(Pixels a, Pixels b) { return Max(a, b) - b; }
-using Halves = std::array<std::uint64_t, 2>;
-Halves AsHalves(Pixels pixels) {
-  Halves halves;
-  std::memcpy(halves.data(), &pixels, kBlock);
-  return halves;
+SEMSLAM_SIMD_INLINE Pixels Excess(Pixels a, Pixels b) { return Max(a, b) - b; }
+
+constexpr int kWordPixels = 8;
+constexpr int kNumWords = kBlock / kWordPixels;
+using Words = std::array<std::uint64_t, kNumWords>;
+SEMSLAM_SIMD_INLINE Words AsWords(Pixels pixels) {
+  Words words;
+  std::memcpy(words.data(), &pixels, kBlock);
+  return words;
 }
-bool IsAnySet(Pixels pixels) {
-  const Halves halves = AsHalves(pixels);
-  return (halves[0] | halves[1]) != 0;
+SEMSLAM_SIMD_INLINE bool IsAnySet(Pixels pixels) {
+  const Words words = AsWords(pixels);
+  return (words[0] | words[1] | words[2] | words[3]) != 0;
 }
 
 // Offsets of the circle's pixels from its centre, clockwise from the top.
 std::array<std::ptrdiff_t, kCircle> CircleOffsets(std::ptrdiff_t step) {
-  constexpr std::array<std::array<int, 2>, kCircle> kCirclePixels = {{{0, -3},
-                                                                      {1, -3},
-                                                                      {2, -2},
-                                                                      {3, -1},
-                                                                      {3, 0},
-                                                                      {3, 1},
-                                                                      {2, 2},
-                                                                      {1, 3},
-                                                                      {0, 3},
-                                                                      {-1, 3},
-                                                                      {-2, 2},
-                                                                      {-3, 1},
-                                                                      {-3, 0},
-                                                                      {-3, -1},
-                                                                      {-2, -2},
-                                                                      {-1, -3}}};
+  constexpr std::array<int, kCircle> kX = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
+  constexpr std::array<int, kCircle> kY = {-3, -3, -2, -1, 0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3};
   std::array<std::ptrdiff_t, kCircle> offsets{};
-  for (int i = 0; i < kCircle; ++i) offsets[i] = kCirclePixels[i][1] * step + kCirclePixels[i][0];
+  for (int i = 0; i < kCircle; ++i) offsets[i] = kY[i] * step + kX[i];
   return offsets;
 }
 
 // Of every arc of nine, the smallest excess; of those, the largest. By doubling: the least of two
 // in a row, of four, of eight, of nine.
-Pixels StrongestArc(const std::array<Pixels, kCircle>& excess) {
+SEMSLAM_SIMD_INLINE Pixels StrongestArc(const std::array<Pixels, kCircle>& excess) {
   static_assert(kArc == 9);
   std::array<Pixels, kCircle> two;
   std::array<Pixels, kCircle> four;
@@ -84,15 +75,15 @@ Pixels StrongestArc(const std::array<Pixels, kCircle>& excess) {
 }
 
 // Every arc of nine holds two neighbours of these four: top, right, bottom, left.
-Pixels StrongestQuarter(const std::array<Pixels, 4>& excess) {
+SEMSLAM_SIMD_INLINE Pixels StrongestQuarter(const std::array<Pixels, 4>& excess) {
   return Max(Max(Min(excess[0], excess[1]), Min(excess[1], excess[2])),
              Max(Min(excess[2], excess[3]), Min(excess[3], excess[0])));
 }
 
 // The scores of a block of pixels, 0 for those that are no corners.
-Pixels ScoreBlock(const std::uint8_t* center,
-                  const std::array<std::ptrdiff_t, kCircle>& offsets,
-                  Pixels threshold) {
+SEMSLAM_SIMD_INLINE Pixels ScoreBlock(const std::uint8_t* center,
+                                      const std::array<std::ptrdiff_t, kCircle>& offsets,
+                                      Pixels threshold) {
   const Pixels middle = Load(center);
   std::array<Pixels, 4> brighter;
   std::array<Pixels, 4> darker;
@@ -122,9 +113,9 @@ class ScoreRow {
   explicit ScoreRow(int width) : width_(width), scores_(1 + width + kBlock, 0) {}
   void Clear() { std::fill(scores_.begin(), scores_.end(), std::uint8_t{0}); }
   // From the row's first pixel on; at least a block can be read there.
-  void Fill(const std::uint8_t* row,
-            const std::array<std::ptrdiff_t, kCircle>& offsets,
-            Pixels threshold) {
+  SEMSLAM_SIMD_INLINE void Fill(const std::uint8_t* row,
+                                const std::array<std::ptrdiff_t, kCircle>& offsets,
+                                Pixels threshold) {
     const int last = std::max(width_ - kBlock, 0);
     for (int x = 0; x < width_; x += kBlock) {
       const int first = std::min(x, last);  // The last block overlaps the one before.
@@ -134,9 +125,11 @@ class ScoreRow {
     if (width_ < kBlock) std::fill(scores_.begin() + width_ + 1, scores_.end(), std::uint8_t{0});
   }
   // The block from pixel x on: -1 <= x <= width - 1.
-  Pixels Block(int x) const { return Load(&scores_[x + 1]); }
-  Pixels MostNear(int x) const { return Max(Max(Block(x - 1), Block(x)), BlockAfter(x)); }
-  Pixels BlockAfter(int x) const { return Load(&scores_[x + 2]); }
+  SEMSLAM_SIMD_INLINE Pixels Block(int x) const { return Load(&scores_[x + 1]); }
+  SEMSLAM_SIMD_INLINE Pixels MostNear(int x) const {
+    return Max(Max(Block(x - 1), Block(x)), BlockAfter(x));
+  }
+  SEMSLAM_SIMD_INLINE Pixels BlockAfter(int x) const { return Load(&scores_[x + 2]); }
 
  private:
   int width_;
@@ -144,25 +137,25 @@ class ScoreRow {
 };
 
 // The corners of a row that are stronger than all their neighbours.
-void AppendStrongest(const ScoreRow& above,
-                     const ScoreRow& row,
-                     const ScoreRow& below,
-                     const cv::Rect& area,
-                     int y,
-                     std::vector<Corner>& corners) {
+SEMSLAM_SIMD_INLINE void AppendStrongest(const ScoreRow& above,
+                                         const ScoreRow& row,
+                                         const ScoreRow& below,
+                                         const cv::Rect& area,
+                                         int y,
+                                         std::vector<Corner>& corners) {
   constexpr int kBitsPerPixel = 8;
   for (int x = 0; x < area.width; x += kBlock) {
     const Pixels scores = row.Block(x);
     if (!IsAnySet(scores)) continue;
     const Pixels beside = Max(row.Block(x - 1), row.BlockAfter(x));
     const Pixels around = Max(beside, Max(above.MostNear(x), below.MostNear(x)));
-    const Halves strongest = AsHalves(scores > around ? scores : All(0));
-    for (int half = 0; half < 2; ++half) {
-      for (std::uint64_t left = strongest[half]; left != 0;) {
+    const Words strongest = AsWords(scores > around ? scores : All(0));
+    for (int word = 0; word < kNumWords; ++word) {
+      for (std::uint64_t left = strongest[word]; left != 0;) {
         const int i = std::countr_zero(left) / kBitsPerPixel;
         const std::uint64_t score = left >> (i * kBitsPerPixel) & 255;
         left &= ~(std::uint64_t{255} << (i * kBitsPerPixel));
-        corners.push_back({static_cast<std::int16_t>(area.x + x + half * kBlock / 2 + i),
+        corners.push_back({static_cast<std::int16_t>(area.x + x + word * kWordPixels + i),
                            static_cast<std::int16_t>(y), static_cast<float>(score)});
       }
     }
@@ -181,10 +174,10 @@ cv::Mat WithRim(const cv::Mat& image, const cv::Rect& area) {
 
 }  // namespace
 
-void AppendFastCorners(const cv::Mat& image,
-                       const cv::Rect& area,
-                       int threshold,
-                       std::vector<Corner>& corners) {
+SEMSLAM_SIMD_CLONES void AppendFastCorners(const cv::Mat& image,
+                                           const cv::Rect& area,
+                                           int threshold,
+                                           std::vector<Corner>& corners) {
   SEMSLAM_CHECK(image.type() == CV_8UC1) << image.type();
   if (area.empty()) return;
   const cv::Mat source = WithRim(image, area);

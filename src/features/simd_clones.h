@@ -11,3 +11,7 @@
 #else
 #define SEMSLAM_SIMD_CLONES
 #endif
+
+// Before small functions that such clones call: inlined, they are compiled for the clone's
+// processor.
+#define SEMSLAM_SIMD_INLINE __attribute__((always_inline)) inline
