@@ -87,7 +87,7 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
   std::optional<TrackedFrame> current;
   if (state_ == TrackingState::kTracking) current = PredictAndMatch(frame);
   const bool is_lost = !current;
-  if (is_lost && HasMapWorthKeeping()) current = Relocalize(frame);
+  if (is_lost) current = Relocalize(frame);
   if (!current) return std::nullopt;
   const int num_inliers = TrackLocalMap(&*current);
   const bool was_lost_lately =
@@ -96,11 +96,6 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
     return std::nullopt;
   }
   return Located{*std::move(current), num_inliers, is_lost};
-}
-
-bool Tracking::HasMapWorthKeeping() const {
-  const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
-  return num_keyframes > options_.min_keyframes_to_keep;
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
@@ -120,6 +115,8 @@ Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
   });
   state_ = TrackingState::kTracking;
   num_frames_since_keyframe_ = 0;
+  num_frames_tracked_ = 1;
+  num_frames_lost_ = 0;
   last_reference_ = id;
   T_reference_last_ = Rigid3();
   T_last_next_.reset();

@@ -45,7 +45,8 @@ class Tracking {
     int min_inliers = 30;              // In the local map; fewer: lost.
     int min_inliers_after_loss = 50;   // To be found again, and for the first second afterwards.
     std::size_t max_places_tried = 6;  // In each lost frame; bounds its time.
-    std::size_t min_keyframes_to_keep = 5;  // Lost with no more keyframes than these: start over.
+    // Lost with no more keyframes than these, for as many frames as were tracked: start over.
+    std::size_t min_keyframes_to_keep = 5;
     KeyframePolicy::Options keyframes;
     void Validate() const;  // Throws std::logic_error.
   };
@@ -60,6 +61,7 @@ class Tracking {
         new_keyframe;            // Inserted into the map with this frame; local mapping is due.
     bool relocalized = false;    // The place was found again with this frame, after a loss.
     bool map_was_reset = false;  // Everything before this frame is void.
+    bool was_skipped = false;    // Not newer than the frame before: nothing was done with it.
   };
 
   Tracking(const Options& options,
@@ -83,7 +85,6 @@ class Tracking {
   Result Initialize(std::shared_ptr<const Frame> frame);
   void BringLastFrameUpToDate();
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
-  bool HasMapWorthKeeping() const;
   std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
   std::optional<TrackedFrame> TrackWithMotion(const std::shared_ptr<const Frame>& frame) const;
   std::optional<TrackedFrame> TrackKeyframe(const std::shared_ptr<const Frame>& frame,
@@ -118,6 +119,8 @@ class Tracking {
   std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
   int num_frames_since_found_ = 0;     // After a loss; large before the first.
   int num_frames_since_keyframe_ = 0;
+  int num_frames_tracked_ = 0;  // Since the map was started.
+  int num_frames_lost_ = 0;     // In a row.
 
   struct Sightings {
     int num_visible = 0;
