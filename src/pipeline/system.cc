@@ -228,6 +228,7 @@ System::Status System::status() const {
     status.num_full_bundles = e.num_full_bundles;
   });
   status.num_voxels = point_cloud_mapping_.num_voxels();
+  status.mapping_is_idle = mapping_stage_.idle();
   status.mapping_queue = mapping_stage_.queue_size();
   status.loop_queue = loop_stage_.queue_size();
   status.dense_queue = point_cloud_mapping_.queue_size();

@@ -34,7 +34,9 @@ struct DetectorSettings {
 struct LoopSettings {
   bool enabled = true;
   LoopClosing::Options closing;
-  BundleOptions bundle;       // Of the whole map, after each loop.
+  // Of the whole map, after each loop. What the pose graph leaves is more than the noise: it takes
+  // more robust steps than a local adjustment before outliers can be told.
+  BundleOptions bundle{.robust_iterations = 20};
   bool final_bundle = false;  // One more at the end of the run.
 };
 

@@ -56,6 +56,7 @@ class System {
     std::size_t num_relocalizations = 0;  // Losses after which the place was found again.
     std::size_t num_loops = 0;            // Closed.
     std::size_t num_full_bundles = 0;  // Bundle adjustments of the whole map that ran to the end.
+    bool mapping_is_idle = true;       // Local mapping has nothing queued and nothing in hand.
     std::size_t mapping_queue = 0;
     std::size_t loop_queue = 0;
     std::size_t dense_queue = 0;
