@@ -18,12 +18,6 @@ const RenderedClip::Options& Checked(const RenderedClip::Options& options) {
   return options;
 }
 
-Renderer::Options RenderingOptions(const RenderedClip::Options& options) {
-  Renderer::Options rendering = options.rendering;
-  rendering.num_threads = options.num_threads;
-  return rendering;
-}
-
 }  // namespace
 
 void RenderedClip::Options::MakeClean() {
@@ -47,7 +41,7 @@ RenderedClip::RenderedClip(const Options& options)
       camera_(options_.camera),
       rays_(camera_),
       staged_(std::make_unique<const StagedScene>(MakeScene(options_.scene, options_.seed))),
-      renderer_(staged_->scene, RenderingOptions(options_)) {}
+      renderer_(staged_->scene, options_.rendering) {}
 
 std::optional<RgbdImage> RenderedClip::Next() {
   if (next_ >= num_frames()) return std::nullopt;
@@ -63,7 +57,7 @@ Rigid3 RenderedClip::T_world_camera(std::size_t index) const {
   return staged_->path.At(ToSeconds(Time(index) - kStart));
 }
 
-RenderedFrame RenderedClip::Frame(std::size_t index) const {
+RenderedFrame RenderedClip::Frame(std::size_t index, int num_threads) const {
   SEMSLAM_CHECK(index < num_frames()) << "frame " << index << " of " << num_frames();
   const double seconds = ToSeconds(Time(index) - kStart);
   const double half_exposure = 0.5 * options_.color.exposure_s;
@@ -76,11 +70,10 @@ RenderedFrame RenderedClip::Frame(std::size_t index) const {
   RenderedFrame frame;
   frame.time = Time(index);
   frame.T_world_camera = motion.T_world_camera;
-  frame.ideal = renderer_.Render(rays_, motion.T_world_camera);
-  frame.color =
-      SenseColor(frame.ideal, camera_, rays_, motion, options_.color, options_.num_threads);
+  frame.ideal = renderer_.Render(rays_, motion.T_world_camera, num_threads);
+  frame.color = SenseColor(frame.ideal, camera_, rays_, motion, options_.color, num_threads);
   frame.depth_16u =
-      SenseDepth(frame.ideal, motion, options_.depth, options_.depth_factor, options_.num_threads);
+      SenseDepth(frame.ideal, motion, options_.depth, options_.depth_factor, num_threads);
   return frame;
 }
 

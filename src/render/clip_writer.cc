@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFramesAtOnce = 4;
+constexpr std::size_t kFramesAtOnce = 8;
 
 void WritePng(const fs::path& path, const cv::Mat& image) {
-  constexpr int kFastest =
-      1;  // Compression: a third of the time of the default for 5 % more bytes.
+  // Without parameters OpenCV takes its fastest: each pixel less its left neighbour, and runs only.
+  // Half the time of compression level 1, and for noisy pictures no larger.
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, kFastest})) {
+  if (!cv::imencode(".png", image, bytes)) {
     throw InputError(path.string() + ": cannot encode the image");
   }
   WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -121,7 +121,7 @@ void WriteFrame(const RenderedClip& clip,
                 std::size_t index,
                 const fs::path& folder,
                 const DetectionOptions& options) {
-  const RenderedFrame frame = clip.Frame(index);
+  const RenderedFrame frame = clip.Frame(index, 1);
   const std::string stamp = FormatTime(frame.time);
   WritePng(folder / "rgb" / (stamp + ".png"), frame.color);
   WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u);
@@ -144,7 +144,7 @@ void WriteClip(const RenderedClip& clip,
   WriteFileAtomically(folder / "instances.json", InstancesText(clip));
   WriteClassNames(detections, folder / "detections" / "classes.names");
   FrameLists lists;
-  // Whole frames side by side: encoding the images does not run in parallel by itself.
+  // Whole frames side by side, each on one thread: less waiting than rows side by side.
   for (std::size_t first = 0; first < clip.num_frames(); first += kFramesAtOnce) {
     const std::size_t count = std::min(kFramesAtOnce, clip.num_frames() - first);
     ParallelFor(count, 1, clip.options().num_threads, [&](std::size_t begin, std::size_t end) {

@@ -76,7 +76,7 @@ class Renderer::Impl {
   Impl(const Scene& scene, const Options& options)
       : scene_(scene), options_(options), ray_scene_(scene) {}
 
-  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera) const {
+  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera, int num_threads) const {
     const View view = {rays, T_world_camera.translation, T_world_camera.rotation.toRotationMatrix(),
                        PixelAngle(rays)};
     const cv::Size size(rays.width(), rays.height());
@@ -86,23 +86,23 @@ class Renderer::Impl {
     image.labels.create(size, CV_16UC1);
     image.incidence.create(size, CV_32FC1);
     std::vector<SurfacePoint> surface(static_cast<std::size_t>(size.area()));
-    ForRows(size.height, [&](int row) { TraceRow(view, row, surface, &image); });
-    const LightBuffer light(scene_, ray_scene_, surface, size.width, LightOptions());
-    ForRows(size.height, [&](int row) { ShadeRow(view, row, surface, light, &image); });
+    ForRows(size.height, num_threads, [&](int row) { TraceRow(view, row, surface, &image); });
+    const LightBuffer light(scene_, ray_scene_, surface, size.width, LightOptions(num_threads));
+    ForRows(size.height, num_threads,
+            [&](int row) { ShadeRow(view, row, surface, light, &image); });
     return image;
   }
 
  private:
-  LightBuffer::Options LightOptions() const {
-    return {options_.shadows, static_cast<float>(options_.occlusion_reach), options_.num_threads};
+  LightBuffer::Options LightOptions(int num_threads) const {
+    return {options_.shadows, static_cast<float>(options_.occlusion_reach), num_threads};
   }
 
   template <typename Body>
-  void ForRows(int num_rows, const Body& body) const {
-    ParallelFor(num_rows, kRowsPerChunk, options_.num_threads,
-                [&](std::size_t first, std::size_t last) {
-                  for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
-                });
+  static void ForRows(int num_rows, int num_threads, const Body& body) {
+    ParallelFor(num_rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
+    });
   }
 
   // Fills one row of surface points, depth, labels and incidence.
@@ -200,8 +200,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-IdealImage Renderer::Render(const RayTable& rays, const Rigid3& T_world_camera) const {
-  return impl_->Render(rays, T_world_camera);
+IdealImage Renderer::Render(const RayTable& rays,
+                            const Rigid3& T_world_camera,
+                            int num_threads) const {
+  return impl_->Render(rays, T_world_camera, num_threads);
 }
 
 }  // namespace semslam

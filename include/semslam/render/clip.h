@@ -45,8 +45,8 @@ class RenderedClip : public FrameSource {
     double depth_factor = 5000;  // Depth image units a metre.
     ColorSensorOptions color = {};
     DepthSensorOptions depth = {};
-    Renderer::Options rendering = {};  // Its num_threads is not used: the one below counts.
-    int num_threads = 0;               // As ParallelFor.
+    Renderer::Options rendering = {};
+    int num_threads = 0;  // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
     void MakeClean();
     // Throws InputError for what a user can say, std::invalid_argument for the sensors.
@@ -59,7 +59,9 @@ class RenderedClip : public FrameSource {
   std::optional<std::size_t> NumFrames() const override { return num_frames(); }
 
   // Frames are numbered from 0.
-  RenderedFrame Frame(std::size_t index) const;
+  RenderedFrame Frame(std::size_t index) const { return Frame(index, options_.num_threads); }
+  // On so many threads; it is the same frame.
+  RenderedFrame Frame(std::size_t index, int num_threads) const;
   RgbdImage Image(std::size_t index) const;
   TimeNs Time(std::size_t index) const;
   Rigid3 T_world_camera(std::size_t index) const;
