@@ -44,26 +44,38 @@ std::vector<std::uint8_t> ShadowedPixels(const double* depth,
   return shadowed;
 }
 
-bool BesideJump(const cv::Mat& depth, int x, int y) {
-  const double center = depth.at<double>(y, x);
-  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const int other_x = std::clamp(x + dx, 0, depth.cols - 1);
-    const int other_y = std::clamp(y + dy, 0, depth.rows - 1);
-    if (std::abs(depth.at<double>(other_y, other_x) - center) > kJump * center) return true;
+// 1 for each pixel of a row from which one of the four neighbours differs by a jump.
+void FindJumps(const cv::Mat& depth, int row, std::vector<std::uint8_t>* beside_jump) {
+  const auto* center = depth.ptr<double>(row);
+  const auto* above = depth.ptr<double>(std::max(row - 1, 0));
+  const auto* below = depth.ptr<double>(std::min(row + 1, depth.rows - 1));
+  const int last = depth.cols - 1;
+  beside_jump->resize(static_cast<std::size_t>(depth.cols));
+  for (int x = 0; x <= last; ++x) {
+    const double z = center[x];
+    const double left = center[x > 0 ? x - 1 : 0];
+    const double right = center[x < last ? x + 1 : last];
+    const double largest = std::max(std::max(left, right), std::max(above[x], below[x]));
+    const double smallest = std::min(std::min(left, right), std::min(above[x], below[x]));
+    (*beside_jump)[x] = std::max(largest - z, z - smallest) > kJump * z ? 1 : 0;
   }
-  return false;
+}
+
+// The whole number nearest to a number of at most a million.
+int NearestInt(double value) {
+  constexpr double kShift = 1048576.0;  // So that cutting the fraction off rounds down.
+  return static_cast<int>(value + (kShift + 0.5)) - static_cast<int>(kShift);
 }
 
 // The depth where a pixel really looks.
 double FrayedDepth(const cv::Mat& depth, int x, int y, double fray, std::uint64_t hash) {
-  if (fray <= 0) return depth.at<double>(y, x);
-  const auto shift = [&](std::uint64_t bits) {
-    return static_cast<int>(std::lround(fray * NormalFloat(bits)));
-  };
-  const int frayed_x = std::clamp(x + shift(hash), 0, depth.cols - 1);
-  const int frayed_y = std::clamp(y + shift(MixBits(hash)), 0, depth.rows - 1);
   const double center = depth.at<double>(y, x);
-  const double frayed = depth.at<double>(frayed_y, frayed_x);
+  if (fray <= 0) return center;
+  const int shift_x = NearestInt(fray * NormalFloat(hash));
+  const int shift_y = NearestInt(fray * NormalFloat(MixBits(hash)));
+  if (shift_x == 0 && shift_y == 0) return center;
+  const double frayed = depth.at<double>(std::clamp(y + shift_y, 0, depth.rows - 1),
+                                         std::clamp(x + shift_x, 0, depth.cols - 1));
   // Only over a jump: on one surface the sensor's window averages such shifts away.
   return std::abs(frayed - center) > kJump * center ? frayed : center;
 }
@@ -72,7 +84,7 @@ double FrayedDepth(const cv::Mat& depth, int x, int y, double fray, std::uint64_
 double MeasuredDepth(double depth, const DepthSensorOptions& options, std::uint64_t hash) {
   double disparity = Disparity(options, depth) + options.disparity_noise_px * NormalFloat(hash);
   if (options.disparity_step_px > 0) {
-    disparity = std::round(disparity / options.disparity_step_px) * options.disparity_step_px;
+    disparity = std::floor(disparity / options.disparity_step_px + 0.5) * options.disparity_step_px;
   }
   if (disparity <= 0) return 0;
   return options.focal_px * options.baseline_m / disparity;
@@ -110,24 +122,25 @@ cv::Mat SenseDepth(const IdealImage& ideal,
   const cv::Mat& truth = ideal.depth;
   cv::Mat depth(truth.size(), CV_16UC1, cv::Scalar(0));
   const auto sense_row = [&](int row) {
+    const auto* depths = truth.ptr<double>(row);
+    const auto* incidence = ideal.incidence.ptr<float>(row);
+    auto* sensed = depth.ptr<std::uint16_t>(row);
     std::vector<std::uint8_t> shadowed(static_cast<std::size_t>(truth.cols), 0);
-    if (options.projector_shadow)
-      shadowed = ShadowedPixels(truth.ptr<double>(row), truth.cols, options);
+    std::vector<std::uint8_t> beside_jump;
+    if (options.projector_shadow) shadowed = ShadowedPixels(depths, truth.cols, options);
+    FindJumps(truth, row, &beside_jump);
     for (int x = 0; x < truth.cols; ++x) {
-      if (truth.at<double>(row, x) <= 0 || shadowed[x] != 0) continue;
-      if (ideal.incidence.at<float>(row, x) < options.min_incidence) continue;
+      if (depths[x] <= 0 || shadowed[x] != 0 || incidence[x] < options.min_incidence) continue;
       const std::uint64_t hash =
           HashOf(frame_seed, static_cast<std::uint64_t>(row) * truth.cols + x);
-      if (options.hole_rate > 0 && UnitFloat(hash) < options.hole_rate && BesideJump(truth, x, row))
-        continue;
+      if (beside_jump[x] != 0 && UnitFloat(hash) < options.hole_rate) continue;
       const double frayed = FrayedDepth(truth, x, row, options.fray_px, MixBits(hash + 1));
       if (frayed <= 0) continue;
       const double measured = MeasuredDepth(frayed, options, MixBits(hash + 2));
       if (measured < options.min_depth_m || measured > options.max_depth_m) continue;
-      const double units = std::round(measured * depth_factor);
-      if (units <= std::numeric_limits<std::uint16_t>::max()) {
-        depth.at<std::uint16_t>(row, x) = static_cast<std::uint16_t>(units);
-      }
+      const double units = measured * depth_factor + 0.5;
+      if (units < std::numeric_limits<std::uint16_t>::max() + 1.0)
+        sensed[x] = static_cast<std::uint16_t>(units);
     }
   };
   ParallelFor(depth.rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
