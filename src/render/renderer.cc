@@ -122,6 +122,24 @@ int EdgeBits(const SurfacePoints& points, std::size_t a, std::size_t b) {
          LessBits(Float4(3.0F) * points.footprint.At(a), step);
 }
 
+// True if a pixel looks different from one of its neighbours: else smoothing would not show.
+bool HasContrast(const cv::Mat& radiance, int column, int row) {
+  constexpr float kLevel = 3.0F / 255.0F;  // Of gamma-coded colour, about the camera's noise.
+  const auto& center = radiance.ptr<cv::Vec3f>(row)[column];
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    const int x = std::clamp(column + dx, 0, radiance.cols - 1);
+    const int y = std::clamp(row + dy, 0, radiance.rows - 1);
+    const auto& other = radiance.ptr<cv::Vec3f>(y)[x];
+    for (int k = 0; k < 3; ++k) {
+      // Levels are square roots: their difference is that of light over their sum.
+      const float difference = center[k] - other[k];
+      if (difference * difference > 4.0F * kLevel * kLevel * std::max(center[k], other[k]))
+        return true;
+    }
+  }
+  return false;
+}
+
 void SetColor(const Vector4& color, int count, cv::Vec3f* pixels) {
   std::array<std::array<float, 4>, 3> channels;
   color.x.Store(channels[0].data());
@@ -160,6 +178,7 @@ class Renderer::Impl {
                           {options_.shadows, static_cast<float>(options_.occlusion_reach)},
                           num_threads);
     ForRows(size.height, num_threads, [&](int row) { ShadeRow(view, row, *workspace, &image); });
+    if (options_.smooth_edges) SmoothEdges(view, *workspace, num_threads, &image.radiance);
     idle_.Write([&](auto& idle) { idle.push_back(std::move(workspace)); });
     return image;
   }
@@ -201,7 +220,6 @@ class Renderer::Impl {
     }
   }
 
-  // Colours one row; pixels that an edge crosses get the mean of their centre and four points more.
   void ShadeRow(const View& view, int row, const Workspace& workspace, IdealImage* image) const {
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
     const int width = view.rays.width();
@@ -212,8 +230,22 @@ class Renderer::Impl {
       SetColor(Shade(scene_, workspace.points, first + x, eye, light), std::min(4, width - x),
                pixels + x);
     }
-    if (options_.smooth_edges)
-      SmoothPixels(view, row, EdgeColumns(view, row, workspace.points), workspace.light, pixels);
+  }
+
+  // Pixels that an edge crosses get the mean of their centre and four points more.
+  void SmoothEdges(const View& view,
+                   const Workspace& workspace,
+                   int num_threads,
+                   cv::Mat* radiance) const {
+    std::vector<std::vector<int>> columns(static_cast<std::size_t>(radiance->rows));
+    ForRows(radiance->rows, num_threads, [&](int row) {
+      for (const int column : EdgeColumns(view, row, workspace.points)) {
+        if (HasContrast(*radiance, column, row)) columns[row].push_back(column);
+      }
+    });
+    ForRows(radiance->rows, num_threads, [&](int row) {
+      SmoothPixels(view, row, columns[row], workspace.light, radiance->ptr<cv::Vec3f>(row));
+    });
   }
 
   // The pixels of a row beside an edge.

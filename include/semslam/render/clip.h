@@ -45,6 +45,14 @@ class RenderedClip : public FrameSource {
     double depth_factor = 5000;  // Depth image units a metre.
     ColorSensorOptions color = {};
     DepthSensorOptions depth = {};
+    // While the lens is covered the picture is black but for its noise, and depth is empty. The
+    // truth (pose, ideal image) stays what an open lens would see. Seconds since the start; the end
+    // is not covered.
+    struct Interval {
+      double from_s = 0;
+      double to_s = 0;
+    };
+    std::optional<Interval> covered = {};
     Renderer::Options rendering = {};
     int num_threads = 0;  // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
@@ -64,6 +72,7 @@ class RenderedClip : public FrameSource {
   RenderedFrame Frame(std::size_t index, int num_threads) const;
   RgbdImage Image(std::size_t index) const;
   TimeNs Time(std::size_t index) const;
+  bool IsCovered(std::size_t index) const;
   Rigid3 T_world_camera(std::size_t index) const;
 
   std::size_t num_frames() const { return static_cast<std::size_t>(options_.num_frames); }
