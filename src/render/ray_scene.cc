@@ -35,7 +35,7 @@ void Attach(RTCDevice device, const TriangleMesh& mesh, unsigned id, RTCScene sc
 
 constexpr std::size_t kPacket = 8;  // Rays that are cast together.
 
-// Copies rays from index `first` on.
+// Copies rays from index `first` on. All else of a packet stays 0, but for the mask.
 void FillPacket(const RayBatch& rays, std::size_t first, RTCRay8* packet) {
   std::copy_n(rays.origin.x.data() + first, kPacket, packet->org_x);
   std::copy_n(rays.origin.y.data() + first, kPacket, packet->org_y);
@@ -44,11 +44,6 @@ void FillPacket(const RayBatch& rays, std::size_t first, RTCRay8* packet) {
   std::copy_n(rays.direction.y.data() + first, kPacket, packet->dir_y);
   std::copy_n(rays.direction.z.data() + first, kPacket, packet->dir_z);
   std::copy_n(rays.length.data() + first, kPacket, packet->tfar);
-  std::fill_n(packet->tnear, kPacket, 0.0F);
-  std::fill_n(packet->time, kPacket, 0.0F);
-  std::fill_n(packet->mask, kPacket, 0xffffffffU);
-  std::fill_n(packet->id, kPacket, 0U);
-  std::fill_n(packet->flags, kPacket, 0U);
 }
 
 // -1 for each lane that holds a ray to be cast.
@@ -109,6 +104,7 @@ void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {
   for (FloatRow* row : {&hits->u, &hits->v, &hits->distance}) row->Resize(rays.size());
   RTCIntersectContext context = CoherentContext();
   RTCRayHit8 packet = {};
+  std::fill_n(packet.ray.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     FillPacket(rays, first, &packet.ray);
@@ -131,6 +127,7 @@ void RayScene::Visibility(const RayBatch& rays, FloatRow* visible) const {
   visible->Resize(rays.size());
   RTCIntersectContext context = CoherentContext();
   RTCRay8 packet = {};
+  std::fill_n(packet.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     FillPacket(rays, first, &packet);
