@@ -13,6 +13,7 @@
 #include "semslam/eval/clip_truth.h"
 #include "semslam/eval/map_evaluation.h"
 #include "semslam/io/atomic_file.h"
+#include "semslam/io/cloud_io.h"
 
 #include "map_report.h"
 #include "printable.h"
@@ -23,6 +24,7 @@ struct Arguments {
   std::string clip;
   std::string result;
   std::string json;
+  std::string labelled_cloud;
   semslam::MapEvaluationOptions options;
 };
 
@@ -33,6 +35,9 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "Classes to evaluate (default: those that clip and result share)")
       ->delimiter(',');
   app.add_option("--json", arguments.json, "File to write the measures to");
+  app.add_option(
+      "--labelled-cloud", arguments.labelled_cloud,
+      "PCD file to write the map's points to, with their true surface as label (0: none)");
   app.set_version_flag("--version", "evaluate_map " SEMSLAM_VERSION);
 }
 
@@ -42,6 +47,10 @@ void Run(const Arguments& arguments) {
   const semslam::MapEvaluation evaluation = semslam::EvaluateMap(truth, result, arguments.options);
   if (!arguments.json.empty()) {
     semslam::WriteFileAtomically(arguments.json, MapJson(evaluation, truth));
+  }
+  if (!arguments.labelled_cloud.empty()) {
+    semslam::WritePcd(arguments.labelled_cloud,
+                      {.positions = result.positions, .labels = evaluation.region_of_point});
   }
   std::cout << MapTable(evaluation, truth);
 }

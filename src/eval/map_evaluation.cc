@@ -29,7 +29,7 @@ void MeasureSegments(const ClipTruth& truth,
                      const BoundaryOptions& options,
                      MapEvaluation& evaluation) {
   const std::map<std::uint32_t, std::uint32_t> region_of_instance = RegionOfInstance(truth);
-  std::vector<std::uint32_t> regions;
+  std::vector<std::uint32_t>& regions = evaluation.region_of_point;
   regions.reserve(positions.size());
   for (const std::uint32_t instance : evaluation.surface.instance_of_point) {
     regions.push_back(instance == SurfaceMatch::kOffSurface ? 0 : region_of_instance.at(instance));
@@ -67,6 +67,14 @@ void MeasureLabels(const ClipTruth& truth,
                                         object_classes, bleeding_reach);
 }
 
+// Boxes of flat things have no volume to compare; what is thinner than the map can tell is
+// thickened.
+OrientedBox Thickened(OrientedBox box) {
+  constexpr double kMinSize = 0.01;  // Metres.
+  box.half_size = box.half_size.cwiseMax(0.5 * kMinSize);
+  return box;
+}
+
 void MeasureObjects(const ClipTruth& truth,
                     const MapResult& result,
                     const ClassNumbers& numbers,
@@ -79,14 +87,15 @@ void MeasureObjects(const ClipTruth& truth,
     if (part.num_samples == 0) continue;
     const bool counts =
         part.seen_share >= options.min_seen_share && part.num_samples >= options.min_seen_samples;
-    evaluation.true_objects.push_back({instance.id, number, part.box, part.centroid, counts});
+    evaluation.true_objects.push_back(
+        {instance.id, number, Thickened(part.box), part.centroid, counts});
     evaluation.seen_shares.push_back(part.seen_share);
   }
   const Rigid3& T_truth_estimate = evaluation.trajectory.T_truth_estimate;
   for (const ObjectRecord& object : result.objects) {
     const std::uint32_t number = numbers.OfLabel(object.label);
     if (number == kNoClassNumber) continue;
-    OrientedBox box = object.box;
+    OrientedBox box = Thickened(object.box);
     box.T_world_box = T_truth_estimate * box.T_world_box;
     evaluation.found_objects.push_back(
         {object.id, number, box, T_truth_estimate * object.centroid, true});

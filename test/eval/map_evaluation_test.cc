@@ -17,6 +17,7 @@ namespace semslam {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::ExpectPerfect;
 using ::testing::HasSubstr;
 using testing::InputErrorOf;
 using testing::PerfectResult;
@@ -44,30 +45,6 @@ void Move(const Rigid3& T_new_world, MapResult& result) {
   for (ObjectRecord& object : result.objects) {
     object.box.T_world_box = T_new_world * object.box.T_world_box;
     object.centroid = T_new_world * object.centroid;
-  }
-}
-
-void ExpectPerfect(const MapEvaluation& evaluation, double tolerance = 1e-9) {
-  EXPECT_LT(evaluation.trajectory.absolute.max, 1e-6);
-  EXPECT_LT(evaluation.surface.Quantile(1.0), 1e-6);
-  EXPECT_EQ(evaluation.surface.num_off_surface, 0U);
-  EXPECT_NEAR(evaluation.surface.completeness, 1.0, tolerance);
-  EXPECT_NEAR(evaluation.segmentation.adjusted_rand_index, 1.0, tolerance);
-  EXPECT_NEAR(evaluation.segmentation.over_segmentation, 0.0, tolerance);
-  EXPECT_NEAR(evaluation.segmentation.under_segmentation, 0.0, tolerance);
-  EXPECT_NEAR(evaluation.segmentation.coverage, 1.0, tolerance);
-  EXPECT_NEAR(evaluation.boundaries.recall, 1.0, tolerance);
-  EXPECT_NEAR(evaluation.boundaries.precision, 1.0, tolerance);
-  EXPECT_NEAR(evaluation.labels.ObjectAccuracy(), 1.0, tolerance);
-  EXPECT_NEAR(evaluation.labels.Accuracy(), 1.0, tolerance);
-  EXPECT_NEAR(evaluation.labels.MeanIntersectionOverUnion(), 1.0, tolerance);
-  EXPECT_NEAR(evaluation.bleeding.Share(), 0.0, tolerance);
-  for (const ObjectScore& score : evaluation.objects) {
-    EXPECT_DOUBLE_EQ(score.Precision(), 1.0);
-    EXPECT_DOUBLE_EQ(score.Recall(), 1.0);
-    EXPECT_DOUBLE_EQ(score.ClassAccuracy(), 1.0);
-    EXPECT_LT(score.MedianCentroidError(), 1e-6);
-    for (const ObjectMatch& match : score.matches) EXPECT_NEAR(match.overlap, 1.0, 1e-6);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "semslam/eval/clip_truth.h"
 #include "semslam/eval/map_evaluation.h"
 
@@ -77,7 +79,7 @@ class SceneBuilder {
 // A desk with a keyboard, two cups, a mouse, a box of no class, and a sheet of paper lying on it.
 inline ClipTruth SmallDesk() {
   SceneBuilder scene;
-  scene.AddBox("desk", {0, 0, -0.0}, {1.2, 0.6, 0});
+  scene.AddBox("desk", {0, 0, 0}, {1.2, 0.6, 0});
   scene.AddBox("keyboard", {0, -0.1, 0.0125}, {0.4, 0.15, 0.025});
   scene.AddBox("cup", {-0.4, 0.1, 0.05}, {0.08, 0.08, 0.1});
   scene.AddBox("cup", {0.4, 0.1, 0.05}, {0.08, 0.08, 0.1});
@@ -90,7 +92,7 @@ inline ClipTruth SmallDesk() {
 // The numbers of the classes in results that are made from the truth.
 inline const std::map<std::string, std::uint32_t>& LabelOfClass() {
   static const std::map<std::string, std::uint32_t> kLabels = {
-      {"cup", 5}, {"keyboard", 3}, {"mouse", 9}};
+      {"cup", 5}, {"keyboard", 3}, {"mouse", 9}, {"teddy bear", 2}, {"tvmonitor", 4}};
   return kLabels;
 }
 
@@ -122,6 +124,30 @@ inline MapResult PerfectResult(const ClipTruth& truth) {
     result.labels.push_back(label == label_of_instance.end() ? 0 : label->second);
   }
   return result;
+}
+
+inline void ExpectPerfect(const MapEvaluation& evaluation, double tolerance = 1e-9) {
+  EXPECT_LT(evaluation.trajectory.absolute.max, 1e-6);
+  EXPECT_LT(evaluation.surface.Quantile(1.0), 1e-6);
+  EXPECT_EQ(evaluation.surface.num_off_surface, 0U);
+  EXPECT_NEAR(evaluation.surface.completeness, 1.0, tolerance);
+  EXPECT_NEAR(evaluation.segmentation.adjusted_rand_index, 1.0, tolerance);
+  EXPECT_NEAR(evaluation.segmentation.over_segmentation, 0.0, tolerance);
+  EXPECT_NEAR(evaluation.segmentation.under_segmentation, 0.0, tolerance);
+  EXPECT_NEAR(evaluation.segmentation.coverage, 1.0, tolerance);
+  EXPECT_NEAR(evaluation.boundaries.recall, 1.0, tolerance);
+  EXPECT_NEAR(evaluation.boundaries.precision, 1.0, tolerance);
+  EXPECT_NEAR(evaluation.labels.ObjectAccuracy(), 1.0, tolerance);
+  EXPECT_NEAR(evaluation.labels.Accuracy(), 1.0, tolerance);
+  EXPECT_NEAR(evaluation.labels.MeanIntersectionOverUnion(), 1.0, tolerance);
+  EXPECT_NEAR(evaluation.bleeding.Share(), 0.0, tolerance);
+  for (const ObjectScore& score : evaluation.objects) {
+    EXPECT_DOUBLE_EQ(score.Precision(), 1.0);
+    EXPECT_DOUBLE_EQ(score.Recall(), 1.0);
+    EXPECT_DOUBLE_EQ(score.ClassAccuracy(), 1.0);
+    EXPECT_LT(score.MedianCentroidError(), 1e-6);
+    for (const ObjectMatch& match : score.matches) EXPECT_NEAR(match.overlap, 1.0, 1e-6);
+  }
 }
 
 }  // namespace semslam::testing

@@ -96,7 +96,7 @@ TEST(SurfaceMatch, DoesNotDependOnTheNumberOfThreads) {
   const Square square;
   Random random(4);
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 9000; ++i) {
     points.emplace_back(static_cast<float>(random.Uniform(-0.25, 0.25)),
                         static_cast<float>(random.Uniform(-0.25, 0.25)),
                         static_cast<float>(random.Uniform(-0.1, 0.1)));

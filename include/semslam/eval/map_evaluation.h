@@ -53,15 +53,19 @@ struct MapEvaluationOptions {
 struct MapEvaluation {
   TrajectoryError trajectory;
   SurfaceMatch surface;
-  // Points off the surface belong to no region and are left out here.
+  // True region of each point, as RegionOfInstance numbers it; 0 for points off the surface, which
+  // the measures of the segments leave out.
+  std::vector<std::uint32_t> region_of_point;
   SegmentationScore segmentation;
   BoundaryScore boundaries;
-  std::vector<RegionScore> regions;  // RegionOfInstance tells which.
+  std::vector<RegionScore> regions;
 
   std::vector<std::string> classes;  // That were evaluated; the numbers below count from 1.
   LabelScore labels;                 // Points off the surface are wrong, whatever they carry.
   BleedingScore bleeding;
-  std::vector<ScoredObject> true_objects;   // Box and centroid of the part that was seen.
+  // Box and centroid of the part that was seen: a map cannot hold more. Boxes, also those of the
+  // found objects, are at least 1 cm thick.
+  std::vector<ScoredObject> true_objects;
   std::vector<double> seen_shares;          // Of the true objects.
   std::vector<ScoredObject> found_objects;  // In the frame of the truth.
   std::vector<ObjectScore> objects;         // One for each of box_overlaps.
