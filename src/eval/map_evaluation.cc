@@ -91,7 +91,7 @@ void MeasureObjects(const ClipTruth& truth,
         {instance.id, number, Thickened(part.box), part.centroid, counts});
     evaluation.seen_shares.push_back(part.seen_share);
   }
-  const Rigid3& T_truth_estimate = evaluation.trajectory.T_truth_estimate;
+  const Rigid3& T_truth_estimate = evaluation.trajectory.T_truth_estimate_map;
   for (const ObjectRecord& object : result.objects) {
     const std::uint32_t number = numbers.OfLabel(object.label);
     if (number == kNoClassNumber) continue;
@@ -129,7 +129,7 @@ MapEvaluation EvaluateMap(const ClipTruth& truth,
   evaluation.trajectory =
       EvaluateTrajectory(truth.trajectory, result.trajectory, options.trajectory);
   const std::vector<Eigen::Vector3f> positions =
-      Moved(evaluation.trajectory.T_truth_estimate, result.positions);
+      Moved(evaluation.trajectory.T_truth_estimate_map, result.positions);
   evaluation.surface = MatchToSurface(positions, truth.Surface(), options.surface);
   evaluation.classes = numbers.names();
   MeasureSegments(truth, result, positions, options.boundaries, evaluation);
