@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/eval/boundary_score.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/check.h"
@@ -52,6 +55,27 @@ double ShareNear(const Points& points, const Points& others, const BoundaryOptio
   return static_cast<double>(near.size()) / static_cast<double>(points.size());
 }
 
+// Points of known truth, the first of those in a voxel that have the same numbers.
+std::vector<std::size_t> ThinnedOut(std::span<const Eigen::Vector3f> positions,
+                                    std::span<const std::uint32_t> segments,
+                                    std::span<const std::uint32_t> truth,
+                                    const BoundaryOptions& options) {
+  using Place = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
+  std::vector<std::pair<Place, std::size_t>> places;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (truth[i] == 0) continue;
+    const auto voxel =
+        VoxelKey::Coordinates(positions[i].cast<double>(), options.neighbour_distance / 3);
+    if (voxel) places.emplace_back(Place(VoxelKey::Pack(*voxel), segments[i], truth[i]), i);
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (k == 0 || places[k].first != places[k - 1].first) kept.push_back(places[k].second);
+  }
+  return kept;
+}
+
 }  // namespace
 
 void BoundaryOptions::Validate() const {
@@ -67,11 +91,11 @@ BoundaryScore ScoreBoundaries(std::span<const Eigen::Vector3f> positions,
   options.Validate();
   SEMSLAM_CHECK(segments.size() == positions.size());
   SEMSLAM_CHECK(truth.size() == positions.size());
+  const std::vector<std::size_t> kept = ThinnedOut(positions, segments, truth, options);
   Points known;
   Numbers known_segments;
   Numbers known_regions;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (truth[i] == 0) continue;
+  for (const std::size_t i : kept) {
     known.push_back(positions[i]);
     known_segments.push_back(segments[i]);
     known_regions.push_back(truth[i]);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -13,10 +12,13 @@
 namespace semslam {
 namespace {
 
+// Neighbouring keys differ in a few bits: all of them have to reach all of the hash.
 std::size_t Hash(std::uint64_t key) {
-  key ^= key >> 31;
-  key *= 0x9e3779b97f4a7c15ULL;
-  return static_cast<std::size_t>(key ^ key >> 29);
+  key ^= key >> 33;
+  key *= 0xff51afd7ed558ccdULL;
+  key ^= key >> 33;
+  key *= 0xc4ceb9fe1a85ec53ULL;
+  return static_cast<std::size_t>(key ^ key >> 33);
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ std::optional<PointGrid::Neighbour> PointGrid::Nearest(const Eigen::Vector3d& p,
     // Every cell of the shell is at least this far away.
     const double nearest_wall = (shell - 1) * cell_size_;
     if (shell > 1 && nearest_wall * nearest_wall > limit) break;
-    AnyCellOfShell(*center, shell, [&](const Cell& cell) {
+    AnyCellOfShell(p, *center, shell, limit, [&](const Cell& cell) {
       for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
         const double squared = (entries_[i].position.cast<double>() - p).squaredNorm();
         const bool is_better =
@@ -79,8 +81,9 @@ bool PointGrid::HasCellWithin(const Eigen::Vector3d& p, double distance) const {
   const auto center = VoxelKey::Coordinates(p, cell_size_);
   if (!center) return false;
   const int reach = Reach(distance);
+  const double limit = distance * distance;
   for (int shell = 0; shell <= reach; ++shell) {
-    if (AnyCellOfShell(*center, shell, [](const Cell&) { return true; })) return true;
+    if (AnyCellOfShell(p, *center, shell, limit, [](const Cell&) { return true; })) return true;
   }
   return false;
 }
@@ -100,10 +103,8 @@ const PointGrid::Cell* PointGrid::Find(std::uint64_t key) const {
   return nullptr;
 }
 
-bool PointGrid::IsInRange(const Eigen::Vector3i& center, int x, int y, int z) {
-  constexpr int kLimit = static_cast<int>(VoxelKey::kLimit) - 1;
-  return std::abs(center.x() + x) < kLimit && std::abs(center.y() + y) < kLimit &&
-         std::abs(center.z() + z) < kLimit;
+bool PointGrid::IsInRange(const Eigen::Vector3i& voxel) {
+  return voxel.cwiseAbs().maxCoeff() < static_cast<int>(VoxelKey::kLimit) - 1;
 }
 
 }  // namespace semslam

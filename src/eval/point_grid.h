@@ -36,7 +36,7 @@ class PointGrid {
     const int reach = Reach(max_distance);
     const double limit = max_distance * max_distance;
     for (int shell = 0; shell <= reach; ++shell) {
-      const bool found = AnyCellOfShell(*center, shell, [&](const Cell& cell) {
+      const bool found = AnyCellOfShell(p, *center, shell, limit, [&](const Cell& cell) {
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
           const double squared = (entries_[i].position.cast<double>() - p).squaredNorm();
           if (squared <= limit && is_wanted(entries_[i].index)) return true;
@@ -65,23 +65,35 @@ class PointGrid {
   int Reach(double distance) const;
   const Cell* Find(std::uint64_t key) const;
 
-  // Calls visit(cell) for the cells at this Chebyshev distance until it returns true.
+  // Calls visit(cell) for the cells around `p` at this Chebyshev distance that may hold something
+  // within the squared distance, which visit may lower, until visit returns true.
   template <typename Visit>
-  bool AnyCellOfShell(const Eigen::Vector3i& center, int shell, Visit&& visit) const {
+  bool AnyCellOfShell(const Eigen::Vector3d& p,
+                      const Eigen::Vector3i& center,
+                      int shell,
+                      const double& max_squared_distance,
+                      Visit&& visit) const {
     for (int x = -shell; x <= shell; ++x) {
       for (int y = -shell; y <= shell; ++y) {
         const bool is_side = x == -shell || x == shell || y == -shell || y == shell;
         const int step = is_side || shell == 0 ? 1 : 2 * shell;
         for (int z = -shell; z <= shell; z += step) {
-          if (!IsInRange(center, x, y, z)) continue;
-          const Cell* cell = Find(VoxelKey::Pack(center + Eigen::Vector3i(x, y, z)));
+          const Eigen::Vector3i voxel = center + Eigen::Vector3i(x, y, z);
+          if (SquaredDistance(p, voxel) > max_squared_distance || !IsInRange(voxel)) continue;
+          const Cell* cell = Find(VoxelKey::Pack(voxel));
           if (cell != nullptr && visit(*cell)) return true;
         }
       }
     }
     return false;
   }
-  static bool IsInRange(const Eigen::Vector3i& center, int x, int y, int z);
+  // Of a point from the nearest place in a cell.
+  double SquaredDistance(const Eigen::Vector3d& p, const Eigen::Vector3i& voxel) const {
+    const Eigen::Vector3d low = cell_size_ * voxel.cast<double>();
+    const Eigen::Vector3d nearest = p.cwiseMax(low).cwiseMin((low.array() + cell_size_).matrix());
+    return (p - nearest).squaredNorm();
+  }
+  static bool IsInRange(const Eigen::Vector3i& voxel);
 
   double cell_size_;
   std::vector<Entry> entries_;  // Cell by cell.

@@ -94,7 +94,8 @@ class EvaluateTest(EndToEndTest):
         for folder, names in [(clip, TRUTH[1:]), (self.copy(self.result, RESULT), RESULT)]:
             for name in names:
                 content = (folder / name).read_bytes()
-                for what, damaged in [("cut", content[:len(content) * 2 // 3 - 7]), ("noise", b"\0\xff" * 99)]:
+                for what, damaged in [("cut", content[:len(content) * 2 // 3 - 7]),
+                                      ("noise", b"\0\xff" * 99)]:
                     with self.subTest(name, what=what):
                         (folder / name).write_bytes(damaged)
                         self.assert_error(run("evaluate_map", clip, self.folder / "evaluated"),
