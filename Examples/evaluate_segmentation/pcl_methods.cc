@@ -43,7 +43,7 @@ FinitePoints<Point> FindFinite(const PointCloudView& view) {
 
 pcl::PointCloud<pcl::Normal>::Ptr NormalsOf(const PointCloudView& view,
                                             const std::vector<std::size_t>& indices) {
-  const pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
+  pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
   for (const std::size_t index : indices) {
     const Eigen::Vector3f& normal = view.normals[index];
     normals->push_back(pcl::Normal(normal.x(), normal.y(), normal.z()));
