@@ -15,6 +15,8 @@
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/trajectory_io.h"
 
+#include "render/true_surface.h"
+
 namespace semslam {
 namespace {
 
@@ -182,6 +184,7 @@ void WriteClip(const RenderedClip& clip,
     if (progress) progress(first + count);
   }
   WriteLists(lists, folder);
+  WriteTrueSurface(folder / "surface.pcd", SampleTrueSurface(clip));
 }
 
 }  // namespace semslam
