@@ -44,7 +44,8 @@ std::vector<std::vector<float>> MakeKeyRows() {
 }
 
 // Key caps with a letter or two on each, seen from above; drawn where the keys are.
-cv::Mat DrawLegends(float width, float depth, const Vector3f& color, Random& random) {
+cv::Mat DrawLegends(float width, float depth, const Vector3f& color, std::uint64_t seed) {
+  Random random(seed);
   const float scale = kLegendPixelsPerKey / kKeyPitch;
   cv::Mat image(cvRound(depth * scale), cvRound(width * scale), CV_8UC3, ToScalar(color));
   const cv::Scalar print = ToScalar(Vector3f::Constant(color.mean() > 0.5F ? 0.1F : 0.92F));
@@ -113,7 +114,11 @@ Object MakeMug(std::uint64_t seed) {
                         (0.5F + 0.32F * std::sin(angle)) * height);
   }
   const float around = 2.0F * kPi * radius;
-  Material print = Printed(DrawMotif({512, 192}, color, seed), around, height + 0.004F);
+  Material print = Printed(
+      [=] {
+        return DrawMotif({512, 192}, color, seed);
+      },
+      around, height + 0.004F);
   print.specular = 0.35F;
   const Material plain = Plastic(color, 0.35F);
   return {"cup",
@@ -131,7 +136,8 @@ Object MakeKeyboard(std::uint64_t seed) {
   const Vector3f caps = dark ? Vector3f(0.22F, 0.21F, 0.2F) : Vector3f(0.82F, 0.87F, 0.9F);
   const TriangleMesh base = Translated(
       MakeRoundedBox({kWidth + 0.03F, kDepth + 0.035F, 0.016F}, 0.006F), {0, 0.004F, 0.008F});
-  Material legends = Printed(DrawLegends(kWidth, kDepth, caps, random), kWidth, kDepth);
+  Material legends =
+      Printed([=] { return DrawLegends(kWidth, kDepth, caps, seed); }, kWidth, kDepth);
   legends.specular = 0.06F;
   return {"keyboard", {{base, GrainyPlastic(body, seed)}, {MakeKeys(kWidth, kDepth), legends}}};
 }
@@ -169,7 +175,7 @@ Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) 
       Placed(MakeCylinder(0.006F, 0.003F, 16), {0.5F * kPi, 0, 0},
              {0.45F * screen_width, -0.0222F, center - 0.5F * screen_height - 0.015F});
   const cv::Size pixels(768, cvRound(768 * screen_height / screen_width));
-  Material glow = Printed(DrawScreen(pixels, seed), screen_width, screen_height);
+  Material glow = Printed([=] { return DrawScreen(pixels, seed); }, screen_width, screen_height);
   glow.emission = 0.45F;
   glow.specular = 0.05F;
   const Material shell = GrainyPlastic(color, seed + 1);
@@ -210,8 +216,16 @@ Object MakeTeddyBear(float height, std::uint64_t seed) {
     for (Eigen::Vector2f& uv : mesh->uvs) uv *= height / 0.865F;
   }
   return {"teddy bear",
-          {{fur, Printed(DrawFur({256, 256}, brown, seed), 0.16F, 0.16F)},
-           {pads, Printed(DrawFur({128, 128}, cream, seed + 1), 0.08F, 0.08F)},
+          {{fur, Printed(
+                     [=] {
+                       return DrawFur({256, 256}, brown, seed);
+                     },
+                     0.16F, 0.16F)},
+           {pads, Printed(
+                      [=] {
+                        return DrawFur({128, 128}, cream, seed + 1);
+                      },
+                      0.08F, 0.08F)},
            {dark, Plastic(Vector3f::Constant(0.07F), 0.5F)}}};
 }
 

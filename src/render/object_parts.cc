@@ -9,9 +9,9 @@
 
 namespace semslam {
 
-Material Printed(const cv::Mat& picture, float width, float height) {
+Material Printed(Picture picture, float width, float height) {
   Material material;
-  material.texture = std::make_shared<const Texture>(picture);
+  material.picture = std::make_shared<const Picture>(std::move(picture));
   material.repeats_per_metre = {1.0F / width, 1.0F / height};
   return material;
 }
@@ -26,7 +26,7 @@ Material Plastic(const Eigen::Vector3f& color, float specular) {
 Material GrainyPlastic(const Eigen::Vector3f& color, std::uint64_t seed) {
   const NoiseStyle style = {
       .color = color, .contrast = 0.06F, .period = 24, .num_octaves = 3, .roughness = 0.8F};
-  Material material = Printed(DrawNoise({128, 128}, style, seed), 0.12F, 0.12F);
+  Material material = Printed([=] { return DrawNoise({128, 128}, style, seed); }, 0.12F, 0.12F);
   material.specular = 0.08F;
   material.shininess = 15;
   return material;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <opencv2/core/mat.hpp>
-
 #include "semslam/render/scene.h"
 
 namespace semslam {
@@ -11,7 +9,7 @@ namespace semslam {
 // Ways to make the materials and meshes that objects are put together from.
 
 // A picture that covers `width` x `height` metres of surface, then repeats.
-Material Printed(const cv::Mat& picture, float width, float height);
+Material Printed(Picture picture, float width, float height);
 // One colour with a highlight.
 Material Plastic(const Eigen::Vector3f& color, float specular = 0.15F);
 // One colour with the fine grain of moulded plastic.
