@@ -159,7 +159,7 @@ Object MakeMouse(std::uint64_t seed) {
           {{body, shell},
            {seam, Plastic(color * 0.4F)},
            {wheel, Plastic(Vector3f::Constant(0.3F))},
-           {MakeTube(cable, 0.0022F, 8), Plastic(Vector3f::Constant(0.12F))}}};
+           {MakeTube(SmoothLine(cable), 0.0022F, 8), Plastic(Vector3f::Constant(0.12F))}}};
 }
 
 Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) {

@@ -30,8 +30,8 @@ cv::Mat DrawWood(cv::Size size, const Eigen::Vector3f& color, std::uint64_t seed
   return PaintPixels(size, [&](const Eigen::Vector2f& unit) {
     const float bend = bend_noise.At(unit);
     const float ring = std::sin(2.0F * std::numbers::pi_v<float> * (9.0F * unit.y() + 1.5F * bend));
-    const float dark = knot_noise.At(unit) > 0.75F ? 0.25F : 0.0F;
-    return ToPixel(color, 1.0F + 0.08F * ring + 0.14F * pore_noise.At(unit) + 0.06F * bend - dark);
+    const float dark = knot_noise.At(unit) > 0.75F ? 0.14F : 0.0F;
+    return ToPixel(color, 1.0F + 0.08F * ring + 0.11F * pore_noise.At(unit) + 0.06F * bend - dark);
   });
 }
 
