@@ -59,6 +59,7 @@ class SceneLayout {
   std::vector<std::string> Names() const;
   // Of an object with a name.
   const Rigid3& PoseOf(const std::string& name) const { return placed_.at(name).T_world_object; }
+  std::size_t NumPlaces(const std::string& name) const { return placed_.at(name).places.size(); }
   // "desk": its topmost place; "shelf/2": the second from below. None: no such name or place.
   std::optional<Surface> FindTop(const std::string& name_and_place) const;
   std::optional<Surface> FindFront(const std::string& name) const;

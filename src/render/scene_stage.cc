@@ -187,6 +187,11 @@ std::optional<Surface> SceneStage::ReadSurface(MapReader& reader, SceneDice& dic
   const std::string host = ReadWord(*node, dice);
   std::optional<Surface> surface = on != nullptr ? layout_.FindTop(host) : layout_.FindFront(host);
   if (surface) return surface;
+  const std::string name = host.substr(0, host.find('/'));
+  if (on != nullptr && layout_.Has(name)) {
+    node->Fail("expected a place of '" + name + "', from /1 to /" +
+               std::to_string(layout_.NumPlaces(name)) + ", found '" + host + "'");
+  }
   const std::string nearest = NearestName(host, layout_.Names());
   node->Fail("expected the name of an object above" +
              (nearest.empty() ? "" : " ('" + nearest + "'?)") + ", found '" + host + "'");
