@@ -100,7 +100,9 @@ Object MakeMug(std::uint64_t seed) {
   const auto radius = static_cast<float>(random.Uniform(0.038, 0.046));
   const auto height = static_cast<float>(random.Uniform(0.088, 0.11));
   constexpr float kWall = 0.004F;
-  const Vector3f color = RandomColor(random, random.Uniform(0.0, 0.8), random.Uniform(0.6, 0.95));
+  const bool is_plain = random.Uniform() < 0.3;
+  const Vector3f color =
+      RandomColor(random, random.Uniform(0.0, 0.8), random.Uniform(is_plain ? 0.25 : 0.6, 0.95));
   const std::vector<Eigen::Vector2f> outside = {
       {0, 0}, {radius - 0.004F, 0}, {radius, 0.004F}, {radius, height - 0.001F}};
   const std::vector<Eigen::Vector2f> inside = {
@@ -122,7 +124,7 @@ Object MakeMug(std::uint64_t seed) {
   print.specular = 0.35F;
   const Material plain = Plastic(color, 0.35F);
   return {"cup",
-          {{MakeLathe(outside, 48, false), print},
+          {{MakeLathe(outside, 48, false), is_plain ? plain : print},
            {MakeLathe(inside, 48, false), Plastic(Vector3f(0.88F, 0.92F, 0.94F), 0.3F)},
            {MakeTube(handle, 0.0055F), plain}}};
 }
@@ -190,8 +192,13 @@ Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) 
 Object MakeTeddyBear(float height, std::uint64_t seed) {
   Random random(seed);
   const auto light = static_cast<float>(random.Uniform(0.75, 1.1));
-  const Vector3f brown = light * Vector3f(0.26F, 0.42F, 0.6F);
-  const Vector3f cream = light * Vector3f(0.55F, 0.7F, 0.82F);
+  const Vector3f coats[] = {{0.26F, 0.42F, 0.6F},
+                            {0.26F, 0.42F, 0.6F},
+                            {0.45F, 0.6F, 0.75F},
+                            {0.13F, 0.2F, 0.32F},
+                            {0.72F, 0.78F, 0.82F}};
+  const Vector3f brown = light * coats[random.Index(5)];
+  const Vector3f cream = 0.5F * (brown + light * Vector3f(0.7F, 0.82F, 0.9F));
   TriangleMesh fur =
       MakeLimb({0.20F, 0.17F, 0.25F}, 0, 0, {0, 0, 0.26F});                // Body; units of height.
   fur.Append(MakeLimb({0.185F, 0.17F, 0.17F}, 0, 0, {0, -0.03F, 0.64F}));  // Head.

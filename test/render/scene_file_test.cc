@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <ostream>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "semslam/render/scenes.h"
 
+#include "render/object_catalog.h"
 #include "support/files.h"
 
 namespace semslam {
@@ -156,6 +158,25 @@ TEST(SceneFile, IsLoadedFromAPath) {
   const StagedScene staged = MakeScene(path.string(), 1);
   EXPECT_EQ(staged.scene.instances()[0].class_name, "cup");
   EXPECT_TRUE(staged.scene.parts()[0].material.texture) << "painted";
+}
+
+TEST(SceneFile, TheDocumentationsExampleIsAScene) {
+  const std::string page =
+      testing::ReadAll(std::filesystem::path(SEMSLAM_SOURCE_DIR) / "docs/scene-files.md");
+  const std::string fence = "```yaml\n";
+  const std::size_t begin = page.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t end = page.find("```", begin + fence.size());
+  const StagedScene staged = Parsed(page.substr(begin + fence.size(), end - begin - fence.size()));
+  EXPECT_EQ(staged.scene.instances().size(), 5U);
+}
+
+TEST(SceneFile, TheDocumentationNamesEveryReadyMadeObject) {
+  const std::string page =
+      testing::ReadAll(std::filesystem::path(SEMSLAM_SOURCE_DIR) / "docs/scene-files.md");
+  const std::string table = page.substr(page.find("## Ready-made objects"));
+  for (const CatalogEntry& entry : ObjectCatalog())
+    EXPECT_NE(table.find(entry.name), std::string::npos) << entry.name;
 }
 
 TEST(SceneFile, AMissingFileIsAnError) {
