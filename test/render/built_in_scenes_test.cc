@@ -224,6 +224,37 @@ TEST(Room, TheEndSeesWhatTheStartSaw) {
   }
 }
 
+// Whether a point of a part of one thing is inside the box of another by more than 1 cm.
+bool ReachesInto(const StagedScene& staged, const Instance& one, const Instance& other) {
+  OrientedBox inner = other.box;
+  inner.half_size.array() -= 0.01;
+  if (inner.half_size.minCoeff() <= 0) return false;  // A sheet.
+  if ((one.box.T_world_box.translation - inner.T_world_box.translation).norm() >
+      one.box.half_size.norm() + inner.half_size.norm())
+    return false;
+  for (const ScenePart& part : staged.scene.parts()) {
+    if (part.instance_id != one.id) continue;
+    for (const Eigen::Vector3f& position : part.mesh.positions) {
+      if (inner.Contains(position.cast<double>())) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Room, NothingReachesIntoAnother) {
+  // Boxes of these are not filled: things are in, under or between them.
+  const std::set<std::string> hollow = {"desk", "shelf", "chair", "sofa", "window"};
+  const StagedScene staged = Layout("room", 1);
+  for (const Instance& one : staged.scene.instances()) {
+    for (const Instance& other : staged.scene.instances()) {
+      if (one.id == other.id || hollow.count(other.class_name) > 0) continue;
+      EXPECT_FALSE(ReachesInto(staged, one, other))
+          << one.class_name << ' ' << one.id << " and " << other.class_name << ' ' << other.id
+          << " at " << other.box.T_world_box.translation.transpose();
+    }
+  }
+}
+
 // The part of a small picture whose depth is within the sensor's range.
 double PartInRange(const Renderer& renderer, const Rigid3& T_world_camera) {
   PinholeCamera::Parameters camera = CameraByName("TUM3");
