@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 1U << 20U;
 constexpr std::size_t kMaxNodes = 50000;  // After aliases are followed: no "billion laughs".
+constexpr std::size_t kMaxKeys = 2000;    // Of one map.
 constexpr int kMaxDepth = 24;
 constexpr std::size_t kMaxShown = 40;  // Letters of a text in a message.
 
@@ -68,16 +69,25 @@ class Converter {
     node->kind = SceneNode::Kind::kMap;
     for (const auto& entry : yaml) {
       const std::string key = KeyOf(entry.first);
-      SceneNode at_key = *node;
-      at_key.items.clear();
-      at_key.keys.clear();
-      at_key.line = entry.first.Mark().line + 1;
-      if (key.empty()) at_key.Fail("expected a word as key, found something else");
-      if (node->Find(key) != nullptr) at_key.Fail("key '" + Shown(key) + "' is there twice");
+      const int line = entry.first.Mark().line + 1;
+      if (key.empty()) FailAtKey(*node, line, "expected a word as key, found something else");
+      if (node->Find(key) != nullptr)
+        FailAtKey(*node, line, "key '" + Shown(key) + "' is there twice");
+      if (node->keys.size() >= kMaxKeys)
+        FailAtKey(*node, line,
+                  "expected at most " + std::to_string(kMaxKeys) + " keys, found more");
       const std::string where = node->where + (node->where.empty() ? "" : ".") + Shown(key);
-      node->items.push_back(Convert(entry.second, where, depth + 1, at_key.line));
+      node->items.push_back(Convert(entry.second, where, depth + 1, line));
       node->keys.push_back(key);
     }
+  }
+
+  [[noreturn]] static void FailAtKey(const SceneNode& map, int line, const std::string& what) {
+    SceneNode key;
+    key.file = map.file;
+    key.where = map.where;
+    key.line = line;
+    key.Fail(what);
   }
 
   std::shared_ptr<const std::string> file_;

@@ -310,6 +310,13 @@ TEST(SceneFile, AliasesThatMultiplyAreAnErrorAndNoCrash) {
             std::string::npos);
 }
 
+TEST(SceneFile, AMapOfManyThousandKeysIsAnErrorAndSoon) {
+  std::string text;
+  for (int i = 0; i < 45000; ++i) text += 'k' + std::to_string(i) + ": v\n";
+  EXPECT_EQ(InputErrorOf([&] { Parsed(text); }),
+            "my.yaml:2001: expected at most 2000 keys, found more");
+}
+
 TEST(SceneFile, AnAliasOfItselfIsAnErrorAndNoCrash) {
   EXPECT_FALSE(InputErrorOf([] { Parsed("objects: &a [*a, *a]\n"); }).empty());
 }
