@@ -15,7 +15,7 @@ using Seed = std::uint64_t;
 using Size = Vector3f;
 
 // One line each: name, how many sizes, the smallest and largest usual one, how to make it.
-const std::array kCatalog = {
+constexpr std::array kCatalog = {
     // On a desk.
     CatalogEntry{"mug", 0, {}, {}, [](const Size&, Seed seed) { return MakeMug(seed); }},
     CatalogEntry{"keyboard", 0, {}, {}, [](const Size&, Seed seed) { return MakeKeyboard(seed); }},

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,8 +19,8 @@ struct CatalogEntry {
   int num_sizes;  // How many numbers its size has: 0 (always the same size) to 3.
   // Its size in metres is drawn between these if the file does not say; the file may say up to
   // kSizeFreedom times less or more.
-  Eigen::Vector3f low;
-  Eigen::Vector3f high;
+  std::array<float, 3> low;
+  std::array<float, 3> high;
   Object (*make)(const Eigen::Vector3f& size, std::uint64_t seed);
 };
 constexpr float kSizeFreedom = 4;

@@ -30,13 +30,15 @@ const CatalogEntry* FindInCatalog(const std::string& name) {
 // Without `size` it is drawn.
 Vector3f ReadSizeOf(const CatalogEntry& entry, const SceneNode* node, SceneDice& dice) {
   Vector3f size = Vector3f::Zero();
-  const auto limits = [&](int k) -> Limits {
+  const auto limits = [&](std::size_t k) -> Limits {
     return {entry.low[k] / kSizeFreedom, entry.high[k] * kSizeFreedom};
   };
   const auto count = static_cast<std::size_t>(entry.num_sizes);
   if (node == nullptr) {
-    for (int k = 0; k < entry.num_sizes; ++k)
-      size[k] = static_cast<float>(dice.random.Uniform(entry.low[k], entry.high[k]));
+    for (std::size_t k = 0; k < count; ++k) {
+      size[static_cast<Eigen::Index>(k)] =
+          static_cast<float>(dice.random.Uniform(entry.low[k], entry.high[k]));
+    }
   } else if (count == 0) {
     node->Fail("expected none, as a " + std::string(entry.name) + " has always the same size");
   } else if (count == 1) {
@@ -46,8 +48,8 @@ Vector3f ReadSizeOf(const CatalogEntry& entry, const SceneNode* node, SceneDice&
     if (list.kind != SceneNode::Kind::kList || list.items.size() != count)
       list.FailExpected("a list of " + std::to_string(count) + " sizes");
     for (std::size_t k = 0; k < count; ++k) {
-      const auto axis = static_cast<int>(k);
-      size[axis] = static_cast<float>(ReadNumber(list.items[k], dice, limits(axis)));
+      size[static_cast<Eigen::Index>(k)] =
+          static_cast<float>(ReadNumber(list.items[k], dice, limits(k)));
     }
   }
   return size;
