@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "features/orb_pattern.h"
+#include "features/simd_clones.h"
 
 namespace semslam {
 namespace {
@@ -40,7 +41,10 @@ SteeredBrief::SteeredBrief() {
   }
 }
 
-Descriptor SteeredBrief::Describe(const cv::Mat& blurred, int x, int y, float angle_degrees) const {
+SEMSLAM_SIMD_CLONES Descriptor SteeredBrief::Describe(const cv::Mat& blurred,
+                                                      int x,
+                                                      int y,
+                                                      float angle_degrees) const {
   const float angle = angle_degrees * static_cast<float>(CV_PI / 180.F);
   const float cosine = std::cos(angle);
   const float sine = std::sin(angle);

@@ -5,31 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/features2d.hpp>
-
 namespace semslam {
 namespace {
 
-constexpr int kCellSize = 30;   // Pixels, about.
-constexpr int kFastRadius = 3;  // FAST looks at a circle of this radius.
-
-// Appends the corners whose circle lies inside `area`.
-void AppendCorners(const cv::Mat& image,
-                   const cv::Rect& area,
-                   int threshold,
-                   std::vector<cv::KeyPoint>& scratch,
-                   std::vector<Corner>& corners) {
-  cv::FAST(image(area), scratch, threshold, /*nonmaxSuppression=*/true);
-  for (const cv::KeyPoint& k : scratch) {
-    corners.push_back({static_cast<std::int16_t>(area.x + static_cast<int>(k.pt.x)),
-                       static_cast<std::int16_t>(area.y + static_cast<int>(k.pt.y)), k.response});
-  }
-}
-
-cv::Rect WithCircles(const cv::Rect& area) {
-  return {area.x - kFastRadius, area.y - kFastRadius, area.width + 2 * kFastRadius,
-          area.height + 2 * kFastRadius};
-}
+constexpr int kCellSize = 30;  // Pixels, about.
 
 // `region` cut into cells of nearly equal size.
 struct Cells {
@@ -63,8 +42,7 @@ std::vector<Corner> DetectCorners(const cv::Mat& image,
   std::vector<Corner> corners;
   const cv::Rect region(edge, edge, image.cols - 2 * edge, image.rows - 2 * edge);
   if (region.width <= 0 || region.height <= 0) return corners;
-  std::vector<cv::KeyPoint> scratch;
-  AppendCorners(image, WithCircles(region), initial_threshold, scratch, corners);
+  AppendFastCorners(image, region, initial_threshold, corners);
 
   const Cells cells(region);
   std::vector<bool> is_filled(static_cast<std::size_t>(cells.columns) * cells.rows, false);
@@ -75,9 +53,7 @@ std::vector<Corner> DetectCorners(const cv::Mat& image,
     for (int first = 0, last = 0; first < cells.columns; first = last + 1) {
       last = first;
       while (last < cells.columns && !is_filled[begin + last]) ++last;
-      const cv::Rect area = cells.Area(row, first, last);
-      if (area.empty()) continue;
-      AppendCorners(image, WithCircles(area), min_threshold, scratch, corners);
+      AppendFastCorners(image, cells.Area(row, first, last), min_threshold, corners);
     }
   }
   return corners;

@@ -7,63 +7,59 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/check.h"
 
+#include "features/row_shrinker.h"
+#include "features/simd_clones.h"
+
 namespace semslam {
-namespace {
-
-constexpr int kWeightBits = 7;  // A pixel times a weight then fits 16 bits with a sign.
-constexpr int kOne = 1 << kWeightBits;
-
-// Source position of a coordinate of the result: weight_next / kOne of the way from pixel `index`
-// to the next one.
-struct Tap {
-  std::int32_t index;
-  std::int16_t weight;
-  std::int16_t weight_next;
-};
-
-std::vector<Tap> MakeTaps(int size, int source_size, double ratio) {
-  std::vector<Tap> taps(size);
-  for (int i = 0; i < size; ++i) {
-    const double position = std::min(i * ratio, source_size - 1.0);
-    const int index = std::clamp(static_cast<int>(position), 0, std::max(source_size - 2, 0));
-    const auto next = static_cast<std::int16_t>(std::lround((position - index) * kOne));
-    taps[i] = {index, static_cast<std::int16_t>(kOne - next), next};
-  }
-  return taps;
-}
-
-}  // namespace
-
 cv::Size LevelSize(const cv::Size& full_size, float scale) {
   return {static_cast<int>(std::lround(static_cast<float>(full_size.width) / scale)),
           static_cast<int>(std::lround(static_cast<float>(full_size.height) / scale))};
 }
 
+namespace {
+
+// Two rows of values kTapOne times too large to one of grey values.
+SEMSLAM_SIMD_CLONES void MixRows(const std::int16_t* __restrict upper,
+                                 const std::int16_t* __restrict lower,
+                                 const Tap& tap,
+                                 int width,
+                                 std::uint8_t* __restrict out) {
+  const std::int16_t weight = tap.weight;
+  const std::int16_t weight_next = tap.weight_next;
+  for (int x = 0; x < width; ++x) {
+    const int sum = upper[x] * weight + lower[x] * weight_next;
+    out[x] = static_cast<std::uint8_t>((sum + kTapOne * kTapOne / 2) >> (2 * kTapBits));
+  }
+}
+
+}  // namespace
+
 cv::Mat Shrink(const cv::Mat& source, const cv::Size& size, double ratio) {
   SEMSLAM_CHECK(source.type() == CV_8UC1 && source.cols >= 2 && source.rows >= 2)
       << source.cols << "x" << source.rows << ", type " << source.type();
-  const std::vector<Tap> columns = MakeTaps(size.width, source.cols, ratio);
+  const RowShrinker shrinker(size.width, source.cols, ratio);
   const std::vector<Tap> rows = MakeTaps(size.height, source.rows, ratio);
   cv::Mat result(size, CV_8UC1);
-  std::vector<std::int16_t> mixed(source.cols);
+  std::vector<std::int16_t> upper(size.width);
+  std::vector<std::int16_t> lower(size.width);
+  int lower_row = -1;  // Of the source.
   for (int y = 0; y < size.height; ++y) {
-    const std::uint8_t* upper = source.ptr<std::uint8_t>(rows[y].index);
-    const std::uint8_t* lower = source.ptr<std::uint8_t>(rows[y].index + 1);
-    const std::int16_t weight = rows[y].weight;
-    const std::int16_t weight_next = rows[y].weight_next;
-    for (int x = 0; x < source.cols; ++x) {
-      mixed[x] = static_cast<std::int16_t>(upper[x] * weight + lower[x] * weight_next);
+    const Tap& tap = rows[y];
+    if (tap.index == lower_row) {
+      std::swap(upper, lower);
+    } else if (tap.index != lower_row - 1) {
+      shrinker.Shrink(source.ptr<std::uint8_t>(tap.index), upper.data());
     }
-    std::uint8_t* out = result.ptr<std::uint8_t>(y);
-    for (int x = 0; x < size.width; ++x) {
-      const Tap& tap = columns[x];
-      const int sum = mixed[tap.index] * tap.weight + mixed[tap.index + 1] * tap.weight_next;
-      out[x] = static_cast<std::uint8_t>((sum + kOne * kOne / 2) >> (2 * kWeightBits));
+    if (tap.index + 1 != lower_row) {
+      lower_row = tap.index + 1;
+      shrinker.Shrink(source.ptr<std::uint8_t>(lower_row), lower.data());
     }
+    MixRows(upper.data(), lower.data(), tap, size.width, result.ptr<std::uint8_t>(y));
   }
   return result;
 }
@@ -89,11 +85,11 @@ std::array<float, kBlurRadius + 1> BlurWeights() {
 int Mirror(int i, int size) { return i < 0 ? -i : i >= size ? 2 * size - 2 - i : i; }
 
 // One row blurred along x; `padded` is scratch of width + 2 radius.
-void BlurRow(const std::uint8_t* row,
-             int width,
-             const std::array<float, kBlurRadius + 1>& k,
-             std::vector<float>& padded,
-             float* __restrict out) {
+SEMSLAM_SIMD_CLONES void BlurRow(const std::uint8_t* row,
+                                 int width,
+                                 const std::array<float, kBlurRadius + 1>& k,
+                                 std::vector<float>& padded,
+                                 float* __restrict out) {
   float* middle = padded.data() + kBlurRadius;
   for (int x = 0; x < width; ++x) middle[x] = row[x];
   for (int i = 1; i <= kBlurRadius; ++i) {
@@ -108,10 +104,10 @@ void BlurRow(const std::uint8_t* row,
 
 // Rows blurred along x to one row blurred along y too. Adding 1.5 * 2^23 rounds to the nearest
 // integer, ties to even, and leaves it in the low bits.
-void BlurColumns(const std::array<const float*, 2 * kBlurRadius + 1>& r,
-                 int width,
-                 const std::array<float, kBlurRadius + 1>& k,
-                 std::uint8_t* __restrict out) {
+SEMSLAM_SIMD_CLONES void BlurColumns(const std::array<const float*, 2 * kBlurRadius + 1>& r,
+                                     int width,
+                                     const std::array<float, kBlurRadius + 1>& k,
+                                     std::uint8_t* __restrict out) {
   for (int x = 0; x < width; ++x) {
     const float sum = k[0] * r[3][x] + k[1] * (r[2][x] + r[4][x]) + k[2] * (r[1][x] + r[5][x]) +
                       k[3] * (r[0][x] + r[6][x]);

@@ -73,9 +73,12 @@ System::~System() {
 
 Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   SEMSLAM_CHECK(image != nullptr);
+  if (last_time_ && image->time <= *last_time_) return Skipped(*image);
   auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
   const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
   Tracking::Result result = tracking_.Track(std::move(frame), load);
+  last_time_ = image->time;
+  last_state_ = result.state;
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
   if (result.state == TrackingState::kTracking) {
     trajectory_.Write([&](std::vector<TrajectoryEntry>& entries) {
@@ -86,6 +89,16 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   if (result.new_keyframe && !mapping_stage_.Submit({*result.new_keyframe, image})) {
     mapping_stage_.Finish();  // It failed: tell why.
   }
+  return result;
+}
+
+// A repeated frame, or one that was overtaken on its way: trajectories are in the order of time.
+Tracking::Result System::Skipped(const RgbdImage& image) const {
+  Log(LogLevel::kWarning, "frame skipped: expected a time after " + FormatTime(*last_time_) +
+                              ", found " + FormatTime(image.time));
+  Tracking::Result result;
+  result.state = last_state_;
+  result.was_skipped = true;
   return result;
 }
 

@@ -104,6 +104,8 @@ Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
   });
   state_ = TrackingState::kTracking;
   num_frames_since_keyframe_ = 0;
+  num_frames_tracked_ = 1;
+  num_frames_lost_ = 0;
   last_reference_ = id;
   T_reference_last_ = Rigid3();
   T_last_next_.reset();

@@ -22,6 +22,8 @@ Tracking::Result Tracking::Succeed(TrackedFrame current,
     T_last_next_ = last_.T_world_camera.Inverse() * current.T_world_camera;
   }
   state_ = TrackingState::kTracking;
+  num_frames_lost_ = 0;
+  ++num_frames_tracked_;
   ++num_frames_since_keyframe_;
   KeyframeId reference = local_map_.reference_keyframe();
 
@@ -109,9 +111,11 @@ Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   state_ = TrackingState::kLost;
   Result result;
   result.state = state_;
+  ++num_frames_lost_;
   const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
-  if (num_keyframes > options_.min_keyframes_to_keep) return result;
-  // So little was mapped that a fresh start is better; this frame may serve as the first.
+  const bool is_worth_keeping = num_keyframes > options_.min_keyframes_to_keep;
+  if (is_worth_keeping || num_frames_lost_ < num_frames_tracked_) return result;
+  // More was lost than was mapped: a fresh start is better; this frame may serve as the first.
   map_.Write([](Map& map) { map.Clear(); });
   state_ = TrackingState::kNotInitialized;
   result = Initialize(std::move(frame));

@@ -30,6 +30,43 @@ TEST(Shrink, SamplesTheSourceAtScaledPositions) {
   }
 }
 
+// The definition, pixel by pixel.
+std::uint8_t InterpolatedAt(const cv::Mat& source, double ratio, int x, int y) {
+  const auto tap = [ratio](int i, int size) {
+    const double position = std::min(i * ratio, size - 1.0);
+    const int index = std::min(static_cast<int>(position), size - 2);
+    return std::pair<int, int>(index, static_cast<int>(std::lround((position - index) * 128)));
+  };
+  const auto [column, u] = tap(x, source.cols);
+  const auto [row, v] = tap(y, source.rows);
+  int sum = 0;
+  for (const int dy : {0, 1}) {
+    for (const int dx : {0, 1}) {
+      sum += source.at<std::uint8_t>(row + dy, column + dx) * (dx == 0 ? 128 - u : u) *
+             (dy == 0 ? 128 - v : v);
+    }
+  }
+  return static_cast<std::uint8_t>((sum + 128 * 64) >> 14);
+}
+
+TEST(Shrink, InterpolatesAlikeForEverySizeAndRatio) {
+  cv::RNG random(3);
+  for (const double ratio : {1.05, 1.2, 1.5, 1.99, 2.0}) {
+    for (const cv::Size size :
+         {cv::Size(160, 12), cv::Size(37, 20), cv::Size(9, 5), cv::Size(2, 2)}) {
+      cv::Mat source(size, CV_8UC1);
+      random.fill(source, cv::RNG::UNIFORM, 0, 256);
+      const cv::Mat level = Shrink(source, LevelSize(size, static_cast<float>(ratio)), ratio);
+      for (int y = 0; y < level.rows; ++y) {
+        for (int x = 0; x < level.cols; ++x) {
+          ASSERT_EQ(level.at<std::uint8_t>(y, x), InterpolatedAt(source, ratio, x, y))
+              << ratio << ": " << x << ", " << y << " of " << size;
+        }
+      }
+    }
+  }
+}
+
 TEST(Shrink, KeepsAWhiteImageWhite) {
   const cv::Mat white(101, 77, CV_8UC1, cv::Scalar(255));
   const cv::Mat level = Shrink(white, LevelSize(white.size(), 1.7F), 1.7);

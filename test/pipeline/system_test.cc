@@ -159,7 +159,9 @@ TEST_F(SystemTest, AMapThatWasStartedOverHasTheNewPosesOnly) {
   std::vector<std::string> lines;
   log_ = [&](LogLevel, std::string_view, std::string_view line) { lines.emplace_back(line); };
   const auto system = MakeSystem();
-  for (int i = 0; i < 3; ++i) system->TrackRGBD(wall_.Image(i));
+  system->TrackRGBD(wall_.Image(0));
+  system->TrackRGBD(wall_.Image(1));
+  EXPECT_FALSE(system->TrackRGBD(WallCamera::Blank(2)).map_was_reset);
   EXPECT_TRUE(system->TrackRGBD(WallCamera::Blank(3)).map_was_reset);
   EXPECT_EQ(lines.size(), 1u);
   for (int i = 4; i < 8; ++i) system->TrackRGBD(wall_.Image(i));
@@ -171,6 +173,22 @@ TEST_F(SystemTest, AMapThatWasStartedOverHasTheNewPosesOnly) {
   float min_x = 0;
   for (const Eigen::Vector3f& p : map.cloud.positions) min_x = std::min(min_x, p.x());
   EXPECT_GT(min_x, -0.9F) << "points of the old map lie where the new one has none";
+}
+
+TEST_F(SystemTest, SkipsFramesThatAreNotNewer) {
+  std::vector<std::string> lines;
+  log_ = [&](LogLevel, std::string_view, std::string_view line) { lines.emplace_back(line); };
+  const auto system = MakeSystem();
+  system->TrackRGBD(wall_.Image(1));
+  for (const int number : {1, 0}) {
+    const Tracking::Result result = system->TrackRGBD(wall_.Image(number));
+    EXPECT_TRUE(result.was_skipped);
+    EXPECT_EQ(result.state, TrackingState::kTracking) << "as before";
+  }
+  EXPECT_FALSE(system->TrackRGBD(wall_.Image(2)).was_skipped);
+  EXPECT_EQ(lines.size(), 2u);
+  system->Shutdown();
+  EXPECT_EQ(system->CameraTrajectory().size(), 2u);
 }
 
 TEST_F(SystemTest, RefusesImagesThatAreNotTheCameras) {

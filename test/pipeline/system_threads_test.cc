@@ -44,7 +44,7 @@ class SystemThreads : public ::testing::Test {
     return std::make_unique<System>(WallCamera::MakeSettings(), vocabulary_, std::move(options));
   }
 
-  WallCamera wall_{40};
+  WallCamera wall_{48};
   std::shared_ptr<const Vocabulary> vocabulary_ = wall_.Train();
 };
 
@@ -94,9 +94,12 @@ TEST_F(SystemThreads, ADetectorThatFailsCostsLabelsOnly) {
 TEST_F(SystemThreads, StartOverWhileKeyframesOfTheOldMapAreQueued) {
   const auto system = MakeSystem(std::make_unique<FakeDetector>(false));
   int number = 0;
-  for (int round = 0; round < 5; ++round) {
+  for (int round = 0; round < 4; ++round) {
     for (int i = 0; i < 4; ++i) system->TrackRGBD(wall_.Image(number++));
-    system->TrackRGBD(WallCamera::Blank(number++));
+    bool was_reset = false;
+    for (int i = 0; i < 4; ++i)
+      was_reset |= system->TrackRGBD(WallCamera::Blank(number++)).map_was_reset;
+    EXPECT_TRUE(was_reset);
   }
   for (int i = 0; i < 4; ++i) {
     EXPECT_EQ(system->TrackRGBD(wall_.Image(number++)).state, TrackingState::kTracking);

@@ -69,8 +69,8 @@ class System {
   System(const System&) = delete;
   System& operator=(const System&) = delete;
 
-  // Frames in the order of time; an image of the wrong size or type throws std::logic_error.
-  // Rethrows what a thread threw.
+  // Frames in the order of time; one that is not newer than the frame before is skipped. An image
+  // of the wrong size or type throws std::logic_error. Rethrows what a thread threw.
   Tracking::Result TrackRGBD(const RgbdImagePtr& image);
 
   // Images that still wait for the detector when the run ends.
@@ -101,6 +101,7 @@ class System {
     Rigid3 T_reference_camera;
   };
 
+  Tracking::Result Skipped(const RgbdImage& image) const;
   void MapKeyframe(const KeyframeJob& job);
   std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
@@ -110,6 +111,8 @@ class System {
   SharedMap map_;
   Tracking tracking_;
   LocalMapping local_mapping_;
+  std::optional<TimeNs> last_time_;  // Of the newest frame.
+  TrackingState last_state_ = TrackingState::kNotInitialized;
   Guarded<std::vector<TrajectoryEntry>> trajectory_;
   // Each stage after those it feeds, so that the feeder ends first.
   PointCloudMapping point_cloud_mapping_;

@@ -40,8 +40,10 @@ std::vector<TrueDetection> DetectFromLabels(const cv::Mat& labels,
 //   labels/*.png      16 bit: id of the instance in each pixel
 //   instances.json    id, class and oriented box (world) of each instance
 //   detections/*.txt  `class_index cx cy w h score` a line, relative to the picture; classes.names
-// `progress` is called after every few frames with the number of frames written. Throws InputError
-// if something cannot be written.
+// The lists are written last: a folder without them is unfinished. An earlier clip in the folder is
+// replaced; a folder that holds something else is refused. `progress` is called after every few
+// frames with the number of frames written; what it throws ends the writing. Throws InputError if
+// something cannot be written.
 void WriteClip(const RenderedClip& clip,
                const std::filesystem::path& folder,
                const DetectionOptions& detections,

@@ -43,7 +43,8 @@ class Tracking {
     int min_pose_inliers = 10;        // After optimising with either.
     int min_inliers = 30;             // In the local map; fewer: lost.
     int min_inliers_after_loss = 50;  // The same for the first second after being found again.
-    std::size_t min_keyframes_to_keep = 5;  // Lost with no more keyframes than these: start over.
+    // Lost with no more keyframes than these, for as many frames as were tracked: start over.
+    std::size_t min_keyframes_to_keep = 5;
     KeyframePolicy::Options keyframes;
     void Validate() const;  // Throws std::logic_error.
   };
@@ -57,6 +58,7 @@ class Tracking {
     std::optional<KeyframeId>
         new_keyframe;            // Inserted into the map with this frame; local mapping is due.
     bool map_was_reset = false;  // Everything before this frame is void.
+    bool was_skipped = false;    // Not newer than the frame before: nothing was done with it.
   };
 
   Tracking(const Options& options,
@@ -103,6 +105,8 @@ class Tracking {
   std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
   int num_frames_since_found_ = 0;     // After a loss; large before the first.
   int num_frames_since_keyframe_ = 0;
+  int num_frames_tracked_ = 0;  // Since the map was started.
+  int num_frames_lost_ = 0;     // In a row.
 
   struct Sightings {
     int num_visible = 0;
