@@ -57,7 +57,9 @@ std::string Listed(const std::vector<std::string>& names) {
 }
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("SCENE", arguments.clip.scene, "What to render: " + Listed(semslam::SceneNames()))
+  app.add_option(
+         "SCENE", arguments.clip.scene,
+         "What to render: " + Listed(semslam::SceneNames()) + ", or the path of a scene file")
       ->required();
   app.add_option("OUT", arguments.folder, "Folder to write")->required();
   app.add_option("--frames", arguments.clip.num_frames, "Number of frames")->capture_default_str();

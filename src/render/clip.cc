@@ -44,7 +44,8 @@ RenderedClip::RenderedClip(const Options& options)
     : options_(Checked(options)),
       camera_(options_.camera),
       rays_(camera_),
-      staged_(std::make_unique<const StagedScene>(MakeScene(options_.scene, options_.seed))),
+      staged_(std::make_unique<const StagedScene>(
+          MakeScene(options_.scene, options_.seed, options_.num_threads))),
       renderer_(staged_->scene, options_.rendering) {}
 
 std::optional<RgbdImage> RenderedClip::Next() {

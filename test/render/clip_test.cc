@@ -247,8 +247,9 @@ TEST(RenderedClip, ASmallFrameSeesWhatTheLargeOneSees) {
 }
 
 TEST(RenderedClip, UnknownNamesAreErrorsThatListTheKnown) {
-  EXPECT_EQ(InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
-            "scene moon: unknown, expected one of desk, wall");
+  EXPECT_EQ(
+      InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
+      "scene moon: unknown, expected one of desk, random, room, structure, wall or a .yaml file");
   EXPECT_EQ(InputErrorOf([] { CameraByName("Leica"); }),
             "camera Leica: unknown, expected one of TUM1, TUM3, Xtion");
 }

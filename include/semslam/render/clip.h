@@ -37,7 +37,7 @@ struct RenderedFrame {
 class RenderedClip : public FrameSource {
  public:
   struct Options {
-    std::string scene = "desk";  // One of SceneNames().
+    std::string scene = "desk";  // One of SceneNames(), or the path of a scene file.
     std::uint64_t seed = 1;      // Of the scene, the path and all noise.
     int num_frames = 150;
     double fps = 30;  // Frames a second.
