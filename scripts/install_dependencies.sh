@@ -14,7 +14,7 @@ packages=(
   ca-certificates ccache cmake g++ make ninja-build pkg-config python3
   # Libraries of the project: Thirdparty/README.md says what each is for.
   libceres-dev libcli11-dev libeigen3-dev libembree-dev libopencv-dev libopenni2-dev
-  libpcl-dev libsuitesparse-dev libtbb-dev nlohmann-json3-dev
+  libpcl-dev libsuitesparse-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
   # Tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev
 )

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a made-up RGB-D recording, with exact truth, in the format of the TUM RGB-D benchmark.
+#include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -24,8 +26,29 @@ struct Arguments {
   std::filesystem::path folder;
   std::string camera = "TUM1";
   bool clean = false;
+  bool no_color_noise = false;
+  bool no_blur = false;
+  bool no_exposure_change = false;
+  bool no_depth_noise = false;
+  bool no_depth_holes = false;
+  bool no_distortion = false;
+  std::string cover;
   semslam::RenderedClip::Options clip;
 };
+
+// The only thing a signal handler may touch.
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+struct Interrupted {};
+
+void InstallInterruptHandler() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupt_requested = 1; };
+  // A second Ctrl-C ends the program at once.
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
 
 std::string Listed(const std::vector<std::string>& names) {
   std::string list;
@@ -34,7 +57,9 @@ std::string Listed(const std::vector<std::string>& names) {
 }
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
-  app.add_option("SCENE", arguments.clip.scene, "What to render: " + Listed(semslam::SceneNames()))
+  app.add_option(
+         "SCENE", arguments.clip.scene,
+         "What to render: " + Listed(semslam::SceneNames()) + ", or the path of a scene file")
       ->required();
   app.add_option("OUT", arguments.folder, "Folder to write")->required();
   app.add_option("--frames", arguments.clip.num_frames, "Number of frames")->capture_default_str();
@@ -46,32 +71,88 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--fps", arguments.clip.fps, "Frames a second")->capture_default_str();
   app.add_option("--threads", arguments.clip.num_threads, "0: one per core")->capture_default_str();
   app.add_flag("--clean", arguments.clean, "No noise, blur or missing depth; perfect detections");
+  const char* effects = "Sensor effects";
+  app.add_flag("--no-color-noise", arguments.no_color_noise, "No noise in colour")->group(effects);
+  app.add_flag("--no-blur", arguments.no_blur, "No motion blur")->group(effects);
+  app.add_flag("--no-exposure-change", arguments.no_exposure_change,
+               "Constant exposure, no dark corners")
+      ->group(effects);
+  app.add_flag("--no-depth-noise", arguments.no_depth_noise, "Depth without noise and steps")
+      ->group(effects);
+  app.add_flag("--no-depth-holes", arguments.no_depth_holes,
+               "Depth everywhere: no shadow, range, frayed edges")
+      ->group(effects);
+  app.add_flag("--no-distortion", arguments.no_distortion, "The camera without lens distortion")
+      ->group(effects);
+  app.add_option("--cover", arguments.cover,
+                 "The lens is covered in this time: seconds since the start")
+      ->type_name("FROM:TO")
+      ->group(effects);
   app.set_version_flag("--version", "render_clip " SEMSLAM_VERSION);
+}
+
+semslam::RenderedClip::Options::Interval ParseInterval(const std::string& text) {
+  semslam::RenderedClip::Options::Interval interval;
+  int length = 0;
+  const int num_read =
+      std::sscanf(text.c_str(), "%lf:%lf%n", &interval.from_s, &interval.to_s, &length);
+  if (num_read != 2 || static_cast<std::size_t>(length) != text.size())
+    throw std::runtime_error("--cover: expected FROM:TO in seconds, found " + text);
+  return interval;
+}
+
+void ApplyEffects(const Arguments& arguments, semslam::RenderedClip::Options* clip) {
+  if (arguments.clean) clip->MakeClean();
+  if (arguments.no_color_noise) clip->color.read_noise = clip->color.shot_noise = 0;
+  if (arguments.no_blur) clip->color.exposure_s = 0;
+  if (arguments.no_exposure_change) clip->color.gain_drift = clip->color.vignetting = 0;
+  if (arguments.no_depth_noise) clip->depth.disparity_noise_px = clip->depth.disparity_step_px = 0;
+  if (arguments.no_depth_holes) {
+    const double noise = clip->depth.disparity_noise_px;
+    const double step = clip->depth.disparity_step_px;
+    clip->depth = semslam::DepthSensorOptions::Clean();
+    clip->depth.disparity_noise_px = noise;
+    clip->depth.disparity_step_px = step;
+  }
+  if (arguments.no_distortion) {
+    semslam::PinholeCamera::Parameters& camera = clip->camera;
+    camera.k1 = camera.k2 = camera.p1 = camera.p2 = camera.k3 = 0;
+  }
+  if (!arguments.cover.empty()) clip->covered = ParseInterval(arguments.cover);
+}
+
+// `[#####.....]  72 of 150 frames, 12.3 a second, 6 s left`, over the line before.
+void ShowProgress(std::size_t num_written, std::size_t num_frames, double seconds) {
+  constexpr std::size_t kBarWidth = 30;
+  const std::size_t filled = kBarWidth * num_written / num_frames;
+  const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+  const double rate = static_cast<double>(num_written) / seconds;
+  std::fprintf(stderr, "\r\033[K[%s] %zu of %zu frames, %.1f a second, %.0f s left", bar.c_str(),
+               num_written, num_frames, rate, static_cast<double>(num_frames - num_written) / rate);
 }
 
 void Run(Arguments arguments) {
   arguments.clip.camera = semslam::CameraByName(arguments.camera);
+  ApplyEffects(arguments, &arguments.clip);
   semslam::DetectionOptions detections;
-  if (arguments.clean) {
-    arguments.clip.MakeClean();
-    detections.miss_rate = 0;
-    detections.box_jitter = 0;
-  }
+  if (arguments.clean) detections.miss_rate = detections.box_jitter = 0;
   const semslam::RenderedClip clip(arguments.clip);
   const semslam::Stopwatch watch;
   const bool has_terminal = ::isatty(STDERR_FILENO) != 0;
-  const auto rate = [&](std::size_t num_frames) {
-    return static_cast<double>(num_frames) / watch.Seconds();
+  const auto progress = [&](std::size_t num_written) {
+    if (interrupt_requested != 0) throw Interrupted{};
+    if (has_terminal) ShowProgress(num_written, clip.num_frames(), watch.Seconds());
   };
-  semslam::WriteClip(clip, arguments.folder, detections, [&](std::size_t num_written) {
-    if (!has_terminal) return;
-    std::fprintf(stderr, "\r%zu of %zu frames, %.1f a second ", num_written, clip.num_frames(),
-                 rate(num_written));
-    if (num_written == clip.num_frames()) std::fprintf(stderr, "\n");
-  });
+  try {
+    semslam::WriteClip(clip, arguments.folder, detections, progress);
+  } catch (...) {
+    if (has_terminal) std::fprintf(stderr, "\n");  // The progress stays to be read.
+    throw;
+  }
+  if (has_terminal) std::fprintf(stderr, "\r\033[K");
   std::printf("%s: %zu frames of %s, %zu objects, %.1f frames a second\n", arguments.folder.c_str(),
               clip.num_frames(), arguments.clip.scene.c_str(), clip.instances().size(),
-              rate(clip.num_frames()));
+              static_cast<double>(clip.num_frames()) / watch.Seconds());
 }
 
 }  // namespace
@@ -88,7 +169,14 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
       throw std::runtime_error(std::string(error.what()) + " (--help shows the usage)");
     }
-    Run(arguments);
+    InstallInterruptHandler();
+    try {
+      Run(arguments);
+    } catch (const Interrupted&) {
+      std::cerr << "render_clip: interrupted: " << Printable(arguments.folder.string())
+                << " is unfinished and has no lists of frames\n";
+      return 130;
+    }
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "render_clip: " << Printable(error.what()) << '\n';

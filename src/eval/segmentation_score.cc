@@ -49,6 +49,25 @@ double AdjustedRandIndex(const Contingency& table) {
   return largest == expected ? 1.0 : (in_both - expected) / (largest - expected);
 }
 
+std::vector<RegionScore> RegionScores(const Contingency& table) {
+  std::vector<RegionScore> scores;
+  double most = 0;  // Points of the last region in its best segment so far.
+  for (const auto& [key, count] : table.cells) {
+    const auto& [region, segment] = key;
+    if (scores.empty() || scores.back().region != region) {
+      const double size = table.regions.at(region);
+      scores.push_back({.region = region, .num_points = static_cast<std::size_t>(size)});
+      most = 0;
+    }
+    if (segment == 0 || count <= most) continue;
+    most = count;
+    scores.back().best_segment = segment;
+    scores.back().covered = count / table.regions.at(region);
+    scores.back().foreign = 1.0 - count / table.segments.at(segment);
+  }
+  return scores;
+}
+
 }  // namespace
 
 SegmentationScore ScoreSegmentation(std::span<const std::uint32_t> segments,
@@ -59,21 +78,28 @@ SegmentationScore ScoreSegmentation(std::span<const std::uint32_t> segments,
   SegmentationScore score;
   score.num_points = static_cast<std::size_t>(table.total);
   score.adjusted_rand_index = AdjustedRandIndex(table);
+  score.num_regions = table.regions.size();
   if (table.total == 0) return score;
-  std::map<std::uint32_t, std::pair<double, std::uint32_t>> best;  // Region to overlap, segment.
-  for (const auto& [key, count] : table.cells) {
-    auto& entry = best[key.first];
-    if (key.second != 0 && count > entry.first) entry = {count, key.second};
-  }
-  for (const auto& [region, entry] : best) {
-    score.over_segmentation += table.regions.at(region) - entry.first;
-    if (entry.first > 0) {
-      score.under_segmentation += table.segments.at(entry.second) - entry.first;
-    }
+  for (const RegionScore& region : RegionScores(table)) {
+    const double size = table.regions.at(region.region);
+    score.over_segmentation += size * (1.0 - region.covered);
+    if (region.best_segment == 0) continue;
+    score.under_segmentation += table.segments.at(region.best_segment) * region.foreign;
   }
   score.over_segmentation /= table.total;
   score.under_segmentation /= table.total;
+  const auto unassigned = table.segments.find(0);
+  const bool all_assigned = unassigned == table.segments.end();
+  score.coverage = all_assigned ? 1.0 : 1.0 - unassigned->second / table.total;
+  score.num_segments = table.segments.size() - (all_assigned ? 0 : 1);
   return score;
+}
+
+std::vector<RegionScore> ScoreRegions(std::span<const std::uint32_t> segments,
+                                      std::span<const std::uint32_t> truth) {
+  SEMSLAM_CHECK(segments.size() == truth.size())
+      << segments.size() << " segments, " << truth.size() << " regions";
+  return RegionScores(Count(segments, truth));
 }
 
 }  // namespace semslam

@@ -64,6 +64,22 @@ Rigid3 Align(const std::vector<PosePair>& pairs) {
   return *T_truth_estimate;
 }
 
+// By the camera's centre and a point 1 m away along each of its axes.
+Rigid3 AlignPoses(const std::vector<PosePair>& pairs) {
+  std::vector<Eigen::Vector3d> truth;
+  std::vector<Eigen::Vector3d> estimate;
+  for (const PosePair& pair : pairs) {
+    for (const Eigen::Vector3d& p_camera : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
+                                            Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1)}) {
+      truth.push_back(pair.T_truth * p_camera);
+      estimate.push_back(pair.T_estimate * p_camera);
+    }
+  }
+  const std::optional<Rigid3> T_truth_estimate = AlignPoints(truth, estimate);
+  SEMSLAM_CHECK(T_truth_estimate.has_value()) << pairs.size() << " poses";
+  return *T_truth_estimate;
+}
+
 double RootMeanSquare(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   double sum = 0;
@@ -86,6 +102,7 @@ TrajectoryError::Distances Summarize(std::vector<double> distances) {
 
 void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError& error) {
   error.T_truth_estimate = Align(pairs);
+  error.T_truth_estimate_map = AlignPoses(pairs);
   std::vector<double> distances;
   for (const PosePair& pair : pairs) {
     distances.push_back(

@@ -26,22 +26,22 @@ Eigen::Quaterniond LookAt(const Waypoint& view) {
 
 CameraPath::CameraPath(std::vector<Waypoint> waypoints, const Options& options)
     : waypoints_(std::move(waypoints)), options_(options) {
-  SEMSLAM_CHECK(waypoints_.size() >= 4) << "waypoints: " << waypoints_.size();
+  SEMSLAM_CHECK(waypoints_.size() >= 2) << "waypoints: " << waypoints_.size();
   SEMSLAM_CHECK(options_.seconds_per_waypoint > 0);
 }
 
 Rigid3 CameraPath::At(double seconds) const {
   const double time = std::max(0.0, seconds);
-  const Waypoint view = SplineAt(time);
+  const Waypoint view = ViewAt(time);
   const Eigen::Vector3d shift(SwayAt(0, time), SwayAt(1, time), SwayAt(2, time));
   const Eigen::Vector3d turn(SwayAt(3, time), SwayAt(4, time), SwayAt(5, time));
   return {(LookAt(view) * ExpSO3(options_.sway_angle * turn)).normalized(),
           view.p_world_eye + options_.sway_m * shift};
 }
 
-Waypoint CameraPath::SplineAt(double seconds) const {
+Waypoint CameraPath::ViewAt(double seconds) const {
   const auto count = static_cast<std::int64_t>(waypoints_.size());
-  double position = seconds / options_.seconds_per_waypoint;
+  double position = std::max(0.0, seconds) / options_.seconds_per_waypoint;
   if (!options_.closed) position = std::min(position, static_cast<double>(count - 1));
   const auto segment = static_cast<std::int64_t>(std::floor(position));
   const double t = position - static_cast<double>(segment);
@@ -57,6 +57,11 @@ Waypoint CameraPath::SplineAt(double seconds) const {
     result.p_world_target += weights[k] * waypoint.p_world_target;
   }
   return result;
+}
+
+double CameraPath::duration() const {
+  return options_.seconds_per_waypoint *
+         static_cast<double>(waypoints_.size() - (options_.closed ? 0 : 1));
 }
 
 double CameraPath::SwayAt(int channel, double seconds) const {

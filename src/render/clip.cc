@@ -18,12 +18,6 @@ const RenderedClip::Options& Checked(const RenderedClip::Options& options) {
   return options;
 }
 
-Renderer::Options RenderingOptions(const RenderedClip::Options& options) {
-  Renderer::Options rendering = options.rendering;
-  rendering.num_threads = options.num_threads;
-  return rendering;
-}
-
 }  // namespace
 
 void RenderedClip::Options::MakeClean() {
@@ -40,14 +34,19 @@ void RenderedClip::Options::Validate() const {
     throw InputError("fps: expected a number in (0, 10000], found " + std::to_string(fps));
   if (!(depth_factor > 0))
     throw InputError("depth factor: expected a number > 0, found " + std::to_string(depth_factor));
+  if (covered && !(covered->from_s >= 0 && covered->to_s > covered->from_s)) {
+    throw InputError("covered: expected 0 <= FROM < TO in seconds, found " +
+                     std::to_string(covered->from_s) + " to " + std::to_string(covered->to_s));
+  }
 }
 
 RenderedClip::RenderedClip(const Options& options)
     : options_(Checked(options)),
       camera_(options_.camera),
       rays_(camera_),
-      staged_(std::make_unique<const StagedScene>(MakeScene(options_.scene, options_.seed))),
-      renderer_(staged_->scene, RenderingOptions(options_)) {}
+      staged_(std::make_unique<const StagedScene>(
+          MakeScene(options_.scene, options_.seed, options_.num_threads))),
+      renderer_(staged_->scene, options_.rendering) {}
 
 std::optional<RgbdImage> RenderedClip::Next() {
   if (next_ >= num_frames()) return std::nullopt;
@@ -59,11 +58,17 @@ TimeNs RenderedClip::Time(std::size_t index) const {
   return kStart + static_cast<TimeNs>(std::llround(ticks)) * kTick;
 }
 
+bool RenderedClip::IsCovered(std::size_t index) const {
+  const double seconds = ToSeconds(Time(index) - kStart);
+  return options_.covered && seconds >= options_.covered->from_s &&
+         seconds < options_.covered->to_s;
+}
+
 Rigid3 RenderedClip::T_world_camera(std::size_t index) const {
   return staged_->path.At(ToSeconds(Time(index) - kStart));
 }
 
-RenderedFrame RenderedClip::Frame(std::size_t index) const {
+RenderedFrame RenderedClip::Frame(std::size_t index, int num_threads) const {
   SEMSLAM_CHECK(index < num_frames()) << "frame " << index << " of " << num_frames();
   const double seconds = ToSeconds(Time(index) - kStart);
   const double half_exposure = 0.5 * options_.color.exposure_s;
@@ -76,11 +81,15 @@ RenderedFrame RenderedClip::Frame(std::size_t index) const {
   RenderedFrame frame;
   frame.time = Time(index);
   frame.T_world_camera = motion.T_world_camera;
-  frame.ideal = renderer_.Render(rays_, motion.T_world_camera);
-  frame.color =
-      SenseColor(frame.ideal, camera_, rays_, motion, options_.color, options_.num_threads);
+  frame.ideal = renderer_.Render(rays_, motion.T_world_camera, num_threads);
+  IdealImage reaching = frame.ideal;  // What reaches the sensors.
+  if (IsCovered(index)) {
+    reaching.radiance = cv::Mat::zeros(frame.ideal.radiance.size(), CV_32FC3);
+    reaching.depth = cv::Mat::zeros(frame.ideal.depth.size(), CV_64FC1);
+  }
+  frame.color = SenseColor(reaching, camera_, rays_, motion, options_.color, num_threads);
   frame.depth_16u =
-      SenseDepth(frame.ideal, motion, options_.depth, options_.depth_factor, options_.num_threads);
+      SenseDepth(reaching, motion, options_.depth, options_.depth_factor, num_threads);
   return frame;
 }
 

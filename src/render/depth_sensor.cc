@@ -21,62 +21,97 @@ double Disparity(const DepthSensorOptions& options, double depth) {
   return options.focal_px * options.baseline_m / depth;
 }
 
+// Infinite where there is no surface.
+void FillDisparities(const double* depths,
+                     const DepthSensorOptions& options,
+                     std::vector<double>* disparities) {
+  const double product = options.focal_px * options.baseline_m;
+  for (std::size_t x = 0; x < disparities->size(); ++x) (*disparities)[x] = product / depths[x];
+}
+
 // Marks the pixels of a row whose point the projector does not reach: another point of the row, as
 // seen from the projector, lies in the same direction and nearer. The projector is to the camera's
 // right, so its view of a pixel is shifted left by the disparity, and shadows lie to the left of
 // what casts them.
-std::vector<std::uint8_t> ShadowedPixels(const double* depth,
-                                         int width,
-                                         const DepthSensorOptions& options) {
-  std::vector<std::uint8_t> shadowed(static_cast<std::size_t>(width), 0);
+void FindShadows(const double* depth,
+                 const std::vector<double>& disparities,
+                 std::vector<std::uint8_t>* shadowed) {
   // From the right to the left, a lit surface's directions go left as well. What falls back behind
   // the leftmost direction so far is hidden by the nearer point that was there.
   double leftmost = std::numeric_limits<double>::infinity();
-  for (int x = width - 1; x >= 0; --x) {
+  for (int x = static_cast<int>(disparities.size()) - 1; x >= 0; --x) {
     if (depth[x] <= 0) continue;
-    const double direction = x - Disparity(options, depth[x]);
-    if (direction > leftmost + 0.5) {
-      shadowed[x] = 1;
-    } else {
-      leftmost = std::min(leftmost, direction);
-    }
+    const double direction = x - disparities[x];
+    (*shadowed)[x] = direction > leftmost + 0.5 ? 1 : 0;
+    leftmost = std::min(leftmost, direction);
   }
-  return shadowed;
 }
 
-bool BesideJump(const cv::Mat& depth, int x, int y) {
-  const double center = depth.at<double>(y, x);
-  for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const int other_x = std::clamp(x + dx, 0, depth.cols - 1);
-    const int other_y = std::clamp(y + dy, 0, depth.rows - 1);
-    if (std::abs(depth.at<double>(other_y, other_x) - center) > kJump * center) return true;
+// 1 for each pixel of a row from which one of the four neighbours differs by a jump.
+void FindJumps(const cv::Mat& depth, int row, std::vector<std::uint8_t>* beside_jump) {
+  const auto* center = depth.ptr<double>(row);
+  const auto* above = depth.ptr<double>(std::max(row - 1, 0));
+  const auto* below = depth.ptr<double>(std::min(row + 1, depth.rows - 1));
+  const int last = depth.cols - 1;
+  for (int x = 0; x <= last; ++x) {
+    const double z = center[x];
+    const double left = center[x > 0 ? x - 1 : 0];
+    const double right = center[x < last ? x + 1 : last];
+    const double largest = std::max(std::max(left, right), std::max(above[x], below[x]));
+    const double smallest = std::min(std::min(left, right), std::min(above[x], below[x]));
+    (*beside_jump)[x] = std::max(largest - z, z - smallest) > kJump * z ? 1 : 0;
   }
-  return false;
+}
+
+// The whole number nearest to a number of at most a million.
+int NearestInt(double value) {
+  constexpr double kShift = 1048576.0;  // So that cutting the fraction off rounds down.
+  return static_cast<int>(value + (kShift + 0.5)) - static_cast<int>(kShift);
+}
+
+// Nearly normal as NormalFloat, from 32 bits: the sum of four numbers of eight.
+float NormalFromHalf(std::uint32_t bits) {
+  const std::uint32_t pairs = (bits & 0xff00ffU) + (bits >> 8 & 0xff00ffU);
+  const auto sum = static_cast<int>((pairs & 0xffffU) + (pairs >> 16));
+  // Mean 2 * 255, variance 4 * (256^2 - 1) / 12.
+  return static_cast<float>(sum - 510) * (1.0F / 147.80053F);
 }
 
 // The depth where a pixel really looks.
-double FrayedDepth(const cv::Mat& depth, int x, int y, double fray, std::uint64_t hash) {
-  if (fray <= 0) return depth.at<double>(y, x);
-  const auto shift = [&](std::uint64_t bits) {
-    return static_cast<int>(std::lround(fray * NormalFloat(bits)));
-  };
-  const int frayed_x = std::clamp(x + shift(hash), 0, depth.cols - 1);
-  const int frayed_y = std::clamp(y + shift(MixBits(hash)), 0, depth.rows - 1);
+double FrayedDepth(const cv::Mat& depth, int x, int y, float fray, std::uint64_t hash) {
   const double center = depth.at<double>(y, x);
-  const double frayed = depth.at<double>(frayed_y, frayed_x);
+  const int shift_x = NearestInt(fray * NormalFromHalf(static_cast<std::uint32_t>(hash)));
+  const int shift_y = NearestInt(fray * NormalFromHalf(static_cast<std::uint32_t>(hash >> 32)));
+  if (shift_x == 0 && shift_y == 0) return center;
+  const double frayed = depth.at<double>(std::clamp(y + shift_y, 0, depth.rows - 1),
+                                         std::clamp(x + shift_x, 0, depth.cols - 1));
   // Only over a jump: on one surface the sensor's window averages such shifts away.
   return std::abs(frayed - center) > kJump * center ? frayed : center;
 }
 
 // Noise and steps of the disparity.
-double MeasuredDepth(double depth, const DepthSensorOptions& options, std::uint64_t hash) {
-  double disparity = Disparity(options, depth) + options.disparity_noise_px * NormalFloat(hash);
-  if (options.disparity_step_px > 0) {
-    disparity = std::round(disparity / options.disparity_step_px) * options.disparity_step_px;
+class DisparityMeter {
+ public:
+  explicit DisparityMeter(const DepthSensorOptions& options)
+      : product_(options.focal_px * options.baseline_m),
+        noise_(options.disparity_noise_px),
+        step_(options.disparity_step_px),
+        per_step_(step_ > 0 ? 1.0 / step_ : 0.0) {}
+
+  double DepthOf(double disparity, std::uint64_t hash) const {
+    disparity += noise_ * NormalFloat(hash);
+    if (step_ > 0) disparity = NearestInt(std::min(disparity * per_step_, kMaxSteps)) * step_;
+    return disparity > 0 ? product_ / disparity : 0.0;
   }
-  if (disparity <= 0) return 0;
-  return options.focal_px * options.baseline_m / disparity;
-}
+
+ private:
+  static constexpr double kMaxSteps = 1e6;  // Far beyond any range.
+
+  double product_;
+  double noise_;
+  double step_;
+  double per_step_;
+};
 
 }  // namespace
 
@@ -108,26 +143,35 @@ cv::Mat SenseDepth(const IdealImage& ideal,
                    int num_threads) {
   const std::uint64_t frame_seed = HashOf(motion.seed, kDepthStream, motion.frame);
   const cv::Mat& truth = ideal.depth;
+  const DisparityMeter meter(options);
+  const auto fray = static_cast<float>(options.fray_px);
   cv::Mat depth(truth.size(), CV_16UC1, cv::Scalar(0));
   const auto sense_row = [&](int row) {
-    std::vector<std::uint8_t> shadowed(static_cast<std::size_t>(truth.cols), 0);
-    if (options.projector_shadow)
-      shadowed = ShadowedPixels(truth.ptr<double>(row), truth.cols, options);
+    const auto* depths = truth.ptr<double>(row);
+    const auto* incidence = ideal.incidence.ptr<float>(row);
+    auto* sensed = depth.ptr<std::uint16_t>(row);
+    std::vector<double> disparities(static_cast<std::size_t>(truth.cols));
+    std::vector<std::uint8_t> shadowed(disparities.size(), 0);
+    std::vector<std::uint8_t> beside_jump(disparities.size(), 0);
+    FillDisparities(depths, options, &disparities);
+    if (options.projector_shadow) FindShadows(depths, disparities, &shadowed);
+    if (options.hole_rate > 0) FindJumps(truth, row, &beside_jump);
     for (int x = 0; x < truth.cols; ++x) {
-      if (truth.at<double>(row, x) <= 0 || shadowed[x] != 0) continue;
-      if (ideal.incidence.at<float>(row, x) < options.min_incidence) continue;
+      if (depths[x] <= 0 || shadowed[x] != 0 || incidence[x] < options.min_incidence) continue;
       const std::uint64_t hash =
           HashOf(frame_seed, static_cast<std::uint64_t>(row) * truth.cols + x);
-      if (options.hole_rate > 0 && UnitFloat(hash) < options.hole_rate && BesideJump(truth, x, row))
-        continue;
-      const double frayed = FrayedDepth(truth, x, row, options.fray_px, MixBits(hash + 1));
-      if (frayed <= 0) continue;
-      const double measured = MeasuredDepth(frayed, options, MixBits(hash + 2));
-      if (measured < options.min_depth_m || measured > options.max_depth_m) continue;
-      const double units = std::round(measured * depth_factor);
-      if (units <= std::numeric_limits<std::uint16_t>::max()) {
-        depth.at<std::uint16_t>(row, x) = static_cast<std::uint16_t>(units);
+      if (beside_jump[x] != 0 && UnitFloat(hash) < options.hole_rate) continue;
+      double disparity = disparities[x];
+      if (fray > 0) {
+        const double frayed = FrayedDepth(truth, x, row, fray, MixBits(hash + 1));
+        if (frayed <= 0) continue;
+        if (frayed != depths[x]) disparity = Disparity(options, frayed);
       }
+      const double measured = meter.DepthOf(disparity, MixBits(hash + 2));
+      if (measured < options.min_depth_m || measured > options.max_depth_m) continue;
+      const double units = measured * depth_factor + 0.5;
+      if (units < std::numeric_limits<std::uint16_t>::max() + 1.0)
+        sensed[x] = static_cast<std::uint16_t>(units);
     }
   };
   ParallelFor(depth.rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {

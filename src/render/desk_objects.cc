@@ -44,7 +44,8 @@ std::vector<std::vector<float>> MakeKeyRows() {
 }
 
 // Key caps with a letter or two on each, seen from above; drawn where the keys are.
-cv::Mat DrawLegends(float width, float depth, const Vector3f& color, Random& random) {
+cv::Mat DrawLegends(float width, float depth, const Vector3f& color, std::uint64_t seed) {
+  Random random(seed);
   const float scale = kLegendPixelsPerKey / kKeyPitch;
   cv::Mat image(cvRound(depth * scale), cvRound(width * scale), CV_8UC3, ToScalar(color));
   const cv::Scalar print = ToScalar(Vector3f::Constant(color.mean() > 0.5F ? 0.1F : 0.92F));
@@ -99,7 +100,9 @@ Object MakeMug(std::uint64_t seed) {
   const auto radius = static_cast<float>(random.Uniform(0.038, 0.046));
   const auto height = static_cast<float>(random.Uniform(0.088, 0.11));
   constexpr float kWall = 0.004F;
-  const Vector3f color = RandomColor(random, random.Uniform(0.0, 0.8), random.Uniform(0.6, 0.95));
+  const bool is_plain = random.Uniform() < 0.3;
+  const Vector3f color =
+      RandomColor(random, random.Uniform(0.0, 0.8), random.Uniform(is_plain ? 0.25 : 0.6, 0.95));
   const std::vector<Eigen::Vector2f> outside = {
       {0, 0}, {radius - 0.004F, 0}, {radius, 0.004F}, {radius, height - 0.001F}};
   const std::vector<Eigen::Vector2f> inside = {
@@ -113,11 +116,15 @@ Object MakeMug(std::uint64_t seed) {
                         (0.5F + 0.32F * std::sin(angle)) * height);
   }
   const float around = 2.0F * kPi * radius;
-  Material print = Printed(DrawMotif({512, 192}, color, seed), around, height + 0.004F);
+  Material print = Printed(
+      [=] {
+        return DrawMotif({512, 192}, color, seed);
+      },
+      around, height + 0.004F);
   print.specular = 0.35F;
   const Material plain = Plastic(color, 0.35F);
   return {"cup",
-          {{MakeLathe(outside, 48, false), print},
+          {{MakeLathe(outside, 48, false), is_plain ? plain : print},
            {MakeLathe(inside, 48, false), Plastic(Vector3f(0.88F, 0.92F, 0.94F), 0.3F)},
            {MakeTube(handle, 0.0055F), plain}}};
 }
@@ -131,7 +138,8 @@ Object MakeKeyboard(std::uint64_t seed) {
   const Vector3f caps = dark ? Vector3f(0.22F, 0.21F, 0.2F) : Vector3f(0.82F, 0.87F, 0.9F);
   const TriangleMesh base = Translated(
       MakeRoundedBox({kWidth + 0.03F, kDepth + 0.035F, 0.016F}, 0.006F), {0, 0.004F, 0.008F});
-  Material legends = Printed(DrawLegends(kWidth, kDepth, caps, random), kWidth, kDepth);
+  Material legends =
+      Printed([=] { return DrawLegends(kWidth, kDepth, caps, seed); }, kWidth, kDepth);
   legends.specular = 0.06F;
   return {"keyboard", {{base, GrainyPlastic(body, seed)}, {MakeKeys(kWidth, kDepth), legends}}};
 }
@@ -153,7 +161,7 @@ Object MakeMouse(std::uint64_t seed) {
           {{body, shell},
            {seam, Plastic(color * 0.4F)},
            {wheel, Plastic(Vector3f::Constant(0.3F))},
-           {MakeTube(cable, 0.0022F, 8), Plastic(Vector3f::Constant(0.12F))}}};
+           {MakeTube(SmoothLine(cable), 0.0022F, 8), Plastic(Vector3f::Constant(0.12F))}}};
 }
 
 Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) {
@@ -169,7 +177,7 @@ Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) 
       Placed(MakeCylinder(0.006F, 0.003F, 16), {0.5F * kPi, 0, 0},
              {0.45F * screen_width, -0.0222F, center - 0.5F * screen_height - 0.015F});
   const cv::Size pixels(768, cvRound(768 * screen_height / screen_width));
-  Material glow = Printed(DrawScreen(pixels, seed), screen_width, screen_height);
+  Material glow = Printed([=] { return DrawScreen(pixels, seed); }, screen_width, screen_height);
   glow.emission = 0.45F;
   glow.specular = 0.05F;
   const Material shell = GrainyPlastic(color, seed + 1);
@@ -184,8 +192,13 @@ Object MakeMonitor(float screen_width, float screen_height, std::uint64_t seed) 
 Object MakeTeddyBear(float height, std::uint64_t seed) {
   Random random(seed);
   const auto light = static_cast<float>(random.Uniform(0.75, 1.1));
-  const Vector3f brown = light * Vector3f(0.26F, 0.42F, 0.6F);
-  const Vector3f cream = light * Vector3f(0.55F, 0.7F, 0.82F);
+  const Vector3f coats[] = {{0.26F, 0.42F, 0.6F},
+                            {0.26F, 0.42F, 0.6F},
+                            {0.45F, 0.6F, 0.75F},
+                            {0.13F, 0.2F, 0.32F},
+                            {0.72F, 0.78F, 0.82F}};
+  const Vector3f brown = light * coats[random.Index(5)];
+  const Vector3f cream = 0.5F * (brown + light * Vector3f(0.7F, 0.82F, 0.9F));
   TriangleMesh fur =
       MakeLimb({0.20F, 0.17F, 0.25F}, 0, 0, {0, 0, 0.26F});                // Body; units of height.
   fur.Append(MakeLimb({0.185F, 0.17F, 0.17F}, 0, 0, {0, -0.03F, 0.64F}));  // Head.
@@ -210,8 +223,16 @@ Object MakeTeddyBear(float height, std::uint64_t seed) {
     for (Eigen::Vector2f& uv : mesh->uvs) uv *= height / 0.865F;
   }
   return {"teddy bear",
-          {{fur, Printed(DrawFur({256, 256}, brown, seed), 0.16F, 0.16F)},
-           {pads, Printed(DrawFur({128, 128}, cream, seed + 1), 0.08F, 0.08F)},
+          {{fur, Printed(
+                     [=] {
+                       return DrawFur({256, 256}, brown, seed);
+                     },
+                     0.16F, 0.16F)},
+           {pads, Printed(
+                      [=] {
+                        return DrawFur({128, 128}, cream, seed + 1);
+                      },
+                      0.08F, 0.08F)},
            {dark, Plastic(Vector3f::Constant(0.07F), 0.5F)}}};
 }
 

@@ -27,132 +27,269 @@ float VanDerCorput(int index) {  // Base 2, four bits.
          16.0F;
 }
 
-Eigen::Vector2f PatternPoint(int column, int row) {
-  const int rank = kRank[row & (kPattern - 1)][column & (kPattern - 1)];
-  return {(static_cast<float>(rank) + 0.5F) / 16.0F, VanDerCorput(rank) + 0.5F / 16.0F};
+// Points of the unit disc for four neighbours of a row of the pattern.
+struct DiscPoints {
+  Float4 x;
+  Float4 y;
+  Float4 height;  // Of the half sphere above.
+};
+
+DiscPoints PatternRow(int row) {
+  float x[kPattern];
+  float y[kPattern];
+  float height[kPattern];
+  for (int column = 0; column < kPattern; ++column) {
+    const int rank = kRank[row & (kPattern - 1)][column];
+    const float squared_radius = (static_cast<float>(rank) + 0.5F) / 16.0F;
+    const float angle = 2.0F * kPi * (VanDerCorput(rank) + 0.5F / 16.0F);
+    x[column] = std::sqrt(squared_radius) * std::cos(angle);
+    y[column] = std::sqrt(squared_radius) * std::sin(angle);
+    height[column] = std::sqrt(1.0F - squared_radius);
+  }
+  return {Float4::Load(x), Float4::Load(y), Float4::Load(height)};
 }
 
-Eigen::Vector2f OnDisc(const Eigen::Vector2f& square) {
-  const float radius = std::sqrt(square.x());
-  const float angle = 2.0F * kPi * square.y();
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+// A direction above the surface, with a density proportional to its cosine. The axes beside the
+// normal: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+Vector4 AboveSurface(const Vector4& normal, const DiscPoints& disc) {
+  const Float4 sign = SignOf(normal.z);
+  const Float4 a = Float4(-1.0F) / (sign + normal.z);
+  const Float4 b = normal.x * normal.y * a;
+  const Vector4 side = {Float4(1.0F) + sign * normal.x * normal.x * a, sign * b,
+                        Float4(-1.0F) * sign * normal.x};
+  const Vector4 other = {b, sign + normal.y * normal.y * a, Float4(-1.0F) * normal.y};
+  return disc.x * side + disc.y * other + disc.height * normal;
 }
 
-// A direction above the surface, with a density proportional to its cosine.
-Eigen::Vector3f AboveSurface(const Eigen::Vector3f& normal, const Eigen::Vector2f& square) {
-  const Eigen::Vector2f disc = OnDisc(square);
-  const Eigen::Vector3f helper =
-      std::abs(normal.z()) < 0.9F ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f::UnitX();
-  const Eigen::Vector3f side = helper.cross(normal).normalized();
-  return side * disc.x() + normal.cross(side) * disc.y() +
-         normal * std::sqrt(std::max(0.0F, 1.0F - square.x()));
-}
+// Four points as Affinity needs them.
+struct Place {
+  Vector4 p_world;
+  Vector4 face_normal;
+  Vector4 normal;
+  Float4 footprint;
+};
 
 // 1 if light at b is light at a, too: both on one surface; falls to 0 where one has left the plane
-// or the direction of the other.
-float Affinity(const SurfacePoint& a, const SurfacePoint& b) {
-  if (b.part == Hit::kNone) return 0;
-  const float off_plane = std::abs(a.face_normal.dot(b.p_world - a.p_world));
-  const float bend = 1.0F - a.normal.dot(b.normal);
-  return std::max(0.0F, 1.0F - off_plane / (2.0F * a.footprint)) *
-         std::max(0.0F, 1.0F - 4.0F * bend);
+// or the direction of the other. 0 if there is nothing at b.
+Float4 Affinity(const Place& a, const Vector4& p_world_b, const Vector4& normal_b) {
+  constexpr float kTiny = 1e-9F;  // Metres: nothing is seen at a.
+  const Float4 off_plane = Abs(Dot(a.face_normal, p_world_b - a.p_world));
+  const Float4 bend = Float4(1.0F) - Dot(a.normal, normal_b);
+  return Max(Float4(1.0F) - off_plane / Max(Float4(2.0F) * a.footprint, kTiny), 0.0F) *
+         Max(Float4(1.0F) - Float4(4.0F) * bend, 0.0F);
+}
+
+Place PlaceOf(const SurfacePoints& points, std::size_t index) {
+  return {points.p_world.At(index), points.face_normal.At(index), points.normal.At(index),
+          points.footprint.At(index)};
+}
+
+// A weighted mean of light.
+class Mean {
+ public:
+  void Add(Float4 weight, const Lighting& lighting) {
+    for (std::size_t i = 0; i < lighting.size(); ++i) sum_[i] += weight * lighting[i];
+    total_ += weight;
+  }
+  Lighting Value() const {
+    Lighting result;
+    const Float4 factor = Float4(1.0F) / total_;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = factor * sum_[i];
+    return result;
+  }
+
+ private:
+  Lighting sum_;
+  Float4 total_;
+};
+
+// A thin thing may have no sample of its own: then its neighbours' light must do.
+constexpr float kMinWeight = 1e-4F;
+
+Lighting FullLight() {
+  Lighting result;
+  result.fill(1.0F);
+  return result;
+}
+
+// The samples that pixels x to x + 3 of a row lie on or between, of samples x / 2 on.
+Float4 LeftSamples(Float4 samples) {  // 0 0 1 1
+  return Float4(_mm_unpacklo_ps(samples.lanes, samples.lanes));
+}
+Float4 RightSamples(Float4 samples) {  // 0 1 1 2
+  return Float4(_mm_shuffle_ps(samples.lanes, samples.lanes, _MM_SHUFFLE(2, 1, 1, 0)));
 }
 
 }  // namespace
 
-LightBuffer::LightBuffer(const Scene& scene,
-                         const RayScene& ray_scene,
-                         std::span<const SurfacePoint> surface,
-                         int width,
-                         const Options& options)
-    : scene_(scene),
-      ray_scene_(ray_scene),
-      surface_(surface),
-      width_(width),
-      num_columns_((width + 1) / 2),
-      num_rows_((static_cast<int>(surface.size()) / width + 1) / 2),
-      options_(options),
-      sampled_(static_cast<std::size_t>(num_columns_) * num_rows_, Lighting::Ones()),
-      filtered_(sampled_) {
+struct LightBuffer::Casting {
+  const Scene& scene;
+  const RayScene& ray_scene;
+  const Options& options;
+};
+
+void LightBuffer::Fill(const Scene& scene,
+                       const RayScene& ray_scene,
+                       const Picture& picture,
+                       const Options& options,
+                       int num_threads) {
   SEMSLAM_CHECK(scene.lights().size() <= kMaxLights) << "lights: " << scene.lights().size();
-  if (!options_.shadows && options_.occlusion_reach <= 0) return;  // All light everywhere.
+  is_even_ = !options.shadows && options.occlusion_reach <= 0;
+  if (is_even_) return;
+  Resize(picture);
+  const Casting casting = {scene, ray_scene, options};
   const auto for_rows = [&](auto body) {
-    ParallelFor(num_rows_, 4, options_.num_threads, [&](std::size_t first, std::size_t last) {
+    ParallelFor(num_rows_, 4, num_threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
     });
   };
-  for_rows([this](int row) { SampleRow(row); });
-  for_rows([this](int row) { FilterRow(row); });
+  for_rows([&](int row) {
+    CopyRow(picture, row);
+    SampleRow(casting, row);
+  });
+  for_rows([&](int row) { FilterRow(row); });
 }
 
-void LightBuffer::SampleRow(int row) {
-  std::vector<Ray> rays(static_cast<std::size_t>(num_columns_));
-  std::vector<std::uint8_t> occluded(rays.size());
-  const auto cast = [&](int channel, const auto& make_ray) {
-    for (int column = 0; column < num_columns_; ++column) {
-      const SurfacePoint& point = PointOf(column, row);
-      Ray& ray = rays[column];
-      ray = {Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), 0.0F};
-      if (point.part == Hit::kNone) continue;
-      ray = make_ray(point, PatternPoint(column, row));
-    }
-    ray_scene_.Occluded(rays, occluded);
-    for (int column = 0; column < num_columns_; ++column) {
-      if (occluded[column] != 0)
-        sampled_[static_cast<std::size_t>(row) * num_columns_ + column][channel] = 0;
-    }
-  };
-  for (std::size_t i = 0; options_.shadows && i < scene_.lights().size(); ++i) {
-    const Light& light = scene_.lights()[i];
-    cast(static_cast<int>(i), [&](const SurfacePoint& point, const Eigen::Vector2f& square) -> Ray {
-      const Eigen::Vector2f disc = light.radius * OnDisc(square);
-      const Eigen::Vector3f origin = point.p_world + kLift * point.face_normal;
-      return {origin, light.p_world + Eigen::Vector3f(disc.x(), disc.y(), 0) - origin, 1.0F};
-    });
+void LightBuffer::Resize(const Picture& picture) {
+  num_columns_ = (picture.width + 1) / 2;
+  num_rows_ = (picture.height + 1) / 2;
+  stride_ = (num_columns_ + 3) / 4 * 4 + 2 * kMargin;
+  const std::size_t size = static_cast<std::size_t>(stride_) * num_rows_;
+  for (VectorRow* row : {&p_world_, &face_normal_, &normal_}) row->Resize(size);
+  footprint_.Resize(size);
+  for (std::size_t i = 0; i <= kMaxLights; ++i) {
+    sampled_[i].Resize(size);
+    filtered_[i].Resize(size);
   }
-  if (options_.occlusion_reach <= 0) return;
-  cast(kMaxLights, [&](const SurfacePoint& point, const Eigen::Vector2f& square) -> Ray {
-    return {point.p_world + kLift * point.face_normal, AboveSurface(point.face_normal, square),
-            options_.occlusion_reach};
-  });
+}
+
+void LightBuffer::CopyRow(const Picture& picture, int row) {
+  const std::size_t first = static_cast<std::size_t>(2 * row) * picture.stride;
+  const auto copy = [&](const FloatRow& from, FloatRow& to) {
+    const std::size_t begin = IndexOf(-kMargin, row);
+    std::fill_n(to.data() + begin, kMargin, 0.0F);
+    for (int column = 0; column < num_columns_; ++column)
+      to[IndexOf(column, row)] = from[first + 2 * static_cast<std::size_t>(column)];
+    std::fill(to.data() + IndexOf(num_columns_, row), to.data() + begin + stride_, 0.0F);
+  };
+  const auto copy_vectors = [&](const VectorRow& from, VectorRow& to) {
+    copy(from.x, to.x);
+    copy(from.y, to.y);
+    copy(from.z, to.z);
+  };
+  copy_vectors(picture.points.p_world, p_world_);
+  copy_vectors(picture.points.face_normal, face_normal_);
+  copy_vectors(picture.points.normal, normal_);
+  copy(picture.points.footprint, footprint_);
+}
+
+void LightBuffer::SampleRow(const Casting& casting, int row) {
+  const DiscPoints disc = PatternRow(row);
+  const std::size_t first = IndexOf(0, row);
+  RayBatch rays;
+  FloatRow visible;
+  rays.Resize(static_cast<std::size_t>(num_columns_ + 3) / 4 * 4);
+  for (std::size_t i = 0; i < rays.size(); i += 4) {
+    rays.origin.Set(i, p_world_.At(first + i) + Float4(kLift) * face_normal_.At(first + i));
+  }
+  const auto cast = [&](std::size_t channel) {
+    casting.ray_scene.Visibility(rays, &visible);
+    std::copy_n(visible.data(), rays.size(), sampled_[channel].data() + first);
+  };
+  for (FloatRow& channel : sampled_) std::fill_n(channel.data() + first, rays.size(), 1.0F);
+  const std::vector<Light>& lights = casting.scene.lights();
+  for (std::size_t k = 0; casting.options.shadows && k < lights.size(); ++k) {
+    const Eigen::Vector3f& p_light = lights[k].p_world;
+    const Float4 radius = lights[k].radius;
+    const Vector4 p_world = {p_light.x() + radius * disc.x, p_light.y() + radius * disc.y,
+                             p_light.z()};
+    for (std::size_t i = 0; i < rays.size(); i += 4) {
+      const Vector4 direction = p_world - rays.origin.At(i);
+      const Float4 facing = Dot(face_normal_.At(first + i), direction);
+      rays.direction.Set(i, direction);
+      // A face that looks away has no light: -1, which is not cast.
+      rays.length.Set(i, IfLess(0.0F, facing, 2.0F) - 1.0F);
+    }
+    cast(k);
+  }
+  if (casting.options.occlusion_reach <= 0) return;
+  for (std::size_t i = 0; i < rays.size(); i += 4) {
+    rays.direction.Set(i, AboveSurface(face_normal_.At(first + i), disc));
+    rays.length.Set(i, casting.options.occlusion_reach);
+  }
+  cast(kMaxLights);
 }
 
 void LightBuffer::FilterRow(int row) {
-  for (int column = 0; column < num_columns_; ++column) {
-    const SurfacePoint& center = PointOf(column, row);
-    const std::size_t index = static_cast<std::size_t>(row) * num_columns_ + column;
-    filtered_[index] = sampled_[index];
-    if (center.part == Hit::kNone) continue;
-    Lighting sum = Lighting::Zero();
-    float total = 0;
+  const auto light_at = [this](std::size_t index) {
+    Lighting result;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = sampled_[i].At(index);
+    return result;
+  };
+  for (int column = 0; column < num_columns_; column += 4) {
+    const std::size_t index = IndexOf(column, row);
+    const Place center = {p_world_.At(index), face_normal_.At(index), normal_.At(index),
+                          footprint_.At(index)};
+    Mean mean;
+    mean.Add(kMinWeight, light_at(index));
     for (int y = std::max(0, row - 1); y < std::min(num_rows_, row + 3); ++y) {
-      for (int x = std::max(0, column - 1); x < std::min(num_columns_, column + 3); ++x) {
-        const float weight = Affinity(center, PointOf(x, y));
-        sum += weight * sampled_[static_cast<std::size_t>(y) * num_columns_ + x];
-        total += weight;
+      for (int x = column - 1; x < column + 3; ++x) {
+        const std::size_t other = IndexOf(x, y);
+        mean.Add(Affinity(center, p_world_.At(other), normal_.At(other)), light_at(other));
       }
     }
-    filtered_[index] = sum / total;  // The centre's own weight is 1.
+    const Lighting light = mean.Value();
+    for (std::size_t i = 0; i < light.size(); ++i) filtered_[i].Set(index, light[i]);
   }
+  for (FloatRow& channel : filtered_)  // For pixels right of the last sample.
+    channel[IndexOf(num_columns_, row)] = channel[IndexOf(num_columns_ - 1, row)];
 }
 
-Lighting LightBuffer::At(const SurfacePoint& point, int column, int row) const {
-  if (!options_.shadows && options_.occlusion_reach <= 0) return Lighting::Ones();
-  const int x0 = column / 2;
-  const int y0 = row / 2;
-  Lighting sum = Lighting::Zero();
-  float total = 0;
+Lighting LightBuffer::AtPixels(const SurfacePoints& points,
+                               std::size_t index,
+                               int column,
+                               int row) const {
+  if (is_even_) return FullLight();
+  const Place place = PlaceOf(points, index);
+  Mean mean;
+  const auto add = [&](std::size_t first, auto pick) {
+    const auto pick_vectors = [&](const Vector4& value) -> Vector4 {
+      return {pick(value.x), pick(value.y), pick(value.z)};
+    };
+    Lighting light;
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] = pick(filtered_[i].At(first));
+    mean.Add(Affinity(place, pick_vectors(p_world_.At(first)), pick_vectors(normal_.At(first))) +
+                 kMinWeight,
+             light);
+  };
+  for (int dy = 0; dy <= (row & 1); ++dy) {
+    const std::size_t first = IndexOf(column / 2, std::min(row / 2 + dy, num_rows_ - 1));
+    add(first, LeftSamples);
+    add(first, RightSamples);
+  }
+  return mean.Value();
+}
+
+Lighting LightBuffer::NearPixel(const SurfacePoints& points,
+                                std::size_t index,
+                                int column,
+                                int row) const {
+  if (is_even_) return FullLight();
+  const Place place = PlaceOf(points, index);
+  Mean mean;
   for (int dy = 0; dy <= (row & 1); ++dy) {
     for (int dx = 0; dx <= (column & 1); ++dx) {
-      const int x = std::min(x0 + dx, num_columns_ - 1);
-      const int y = std::min(y0 + dy, num_rows_ - 1);
-      // A thin thing may have no sample of its own: then its neighbours' light must do.
-      const float weight = Affinity(point, PointOf(x, y)) + 1e-4F;
-      sum += weight * filtered_[static_cast<std::size_t>(y) * num_columns_ + x];
-      total += weight;
+      const std::size_t other = IndexOf(std::min(column / 2 + dx, num_columns_ - 1),
+                                        std::min(row / 2 + dy, num_rows_ - 1));
+      const auto all = [other](const VectorRow& row_of) -> Vector4 {
+        return {row_of.x[other], row_of.y[other], row_of.z[other]};
+      };
+      Lighting light;
+      for (std::size_t i = 0; i < light.size(); ++i) light[i] = filtered_[i][other];
+      mean.Add(Affinity(place, all(p_world_), all(normal_)) + kMinWeight, light);
     }
   }
-  return sum / total;
+  return mean.Value();
 }
 
 }  // namespace semslam

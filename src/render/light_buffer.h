@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-#include <vector>
+#include <array>
+#include <cstddef>
 
+#include "render/lanes.h"
 #include "render/ray_scene.h"
 #include "render/shading.h"
+#include "render/surface.h"
 
 namespace semslam {
 
@@ -16,40 +18,61 @@ namespace semslam {
 // a single ray to each lamp and one into its surroundings. Sixteen neighbours take sixteen
 // different directions, and averaging over neighbours on the same surface gives each the light of
 // all.
+//
+// A buffer can be used for one picture after the other, so that its memory is taken once.
 class LightBuffer {
  public:
   struct Options {
     bool shadows = true;
     float occlusion_reach = 0.25F;  // Metres; 0: none.
-    int num_threads = 0;            // As ParallelFor.
+  };
+  // The points of a picture, row by row; `stride` (a multiple of 4, as all rows are padded to it)
+  // from row to row.
+  struct Picture {
+    const SurfacePoints& points;
+    int width;
+    int height;
+    int stride;
   };
 
-  // `surface`: the picture's points, row by row. All arguments must outlive the buffer.
-  LightBuffer(const Scene& scene,
-              const RayScene& ray_scene,
-              std::span<const SurfacePoint> surface,
-              int width,
-              const Options& options);
+  // Casts the rays and averages them. `num_threads`: as ParallelFor.
+  void Fill(const Scene& scene,
+            const RayScene& ray_scene,
+            const Picture& picture,
+            const Options& options,
+            int num_threads);
 
-  // Light at `point`, which is seen in or near this pixel.
-  Lighting At(const SurfacePoint& point, int column, int row) const;
+  // Light at the pixels `column` (a multiple of 4) to `column` + 3 of a row. `points`, `index`:
+  // what is seen there.
+  Lighting AtPixels(const SurfacePoints& points, std::size_t index, int column, int row) const;
+  // Light at four points that are seen in or near one pixel.
+  Lighting NearPixel(const SurfacePoints& points, std::size_t index, int column, int row) const;
 
  private:
-  void SampleRow(int row);
+  // Rows have columns without a surface to their left and right.
+  static constexpr int kMargin = 4;
+
+  struct Casting;
+
+  void Resize(const Picture& picture);
+  void CopyRow(const Picture& picture, int row);
+  void SampleRow(const Casting& casting, int row);
   void FilterRow(int row);
-  const SurfacePoint& PointOf(int column, int row) const {
-    return surface_[static_cast<std::size_t>(2 * row) * width_ + 2 * column];
+  std::size_t IndexOf(int column, int row) const {
+    return static_cast<std::size_t>(row) * stride_ + kMargin + column;
   }
 
-  const Scene& scene_;
-  const RayScene& ray_scene_;
-  std::span<const SurfacePoint> surface_;
-  int width_;
-  int num_columns_;  // Of this buffer: half the picture's.
-  int num_rows_;
-  Options options_;
-  std::vector<Lighting> sampled_;
-  std::vector<Lighting> filtered_;
+  int num_columns_ = 0;  // Half the picture's.
+  int num_rows_ = 0;
+  int stride_ = 0;
+  bool is_even_ = true;  // All light everywhere: nothing cast.
+  // Of one pixel in four. Where nothing is seen, normals are 0.
+  VectorRow p_world_;
+  VectorRow face_normal_;
+  VectorRow normal_;
+  FloatRow footprint_;
+  std::array<FloatRow, kMaxLights + 1> sampled_;
+  std::array<FloatRow, kMaxLights + 1> filtered_;
 };
 
 }  // namespace semslam

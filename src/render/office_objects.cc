@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The objects that no detector looks for, and the room.
+// Things on a desk that no detector looks for.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -21,16 +21,12 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-cv::Size PixelsFor(float width, float height, float pixels_per_metre) {
-  return {cvRound(width * pixels_per_metre), cvRound(height * pixels_per_metre)};
-}
-
 }  // namespace
 
 Object MakeBook(const Vector3f& size, std::uint64_t seed) {
   Random random(seed);
   constexpr float kBoard = 0.0025F;  // Thickness of the cover.
-  const Vector3f color = RandomColor(random, random.Uniform(0.3, 0.9), random.Uniform(0.25, 0.85));
+  const Vector3f color = RandomColor(random, random.Uniform(0.15, 0.8), random.Uniform(0.2, 0.85));
   const Vector3f inner(size.x() - 0.008F, size.y() - 0.006F, size.z() - 2 * kBoard);
   const TriangleMesh pages = Translated(MakeBox(inner), {0, 0, 0.5F * size.z()});
   TriangleMesh boards;
@@ -40,22 +36,36 @@ Object MakeBook(const Vector3f& size, std::uint64_t seed) {
   const TriangleMesh spine = Translated(MakeBox({size.x(), kBoard, size.z()}),
                                         {0, -0.5F * size.y() + 0.5F * kBoard, 0.5F * size.z()});
   // The cover is upright for a reader who has the spine on the left: turn it so.
-  cv::Mat cover;
-  cv::rotate(DrawCover(PixelsFor(size.y(), size.x(), 1600), color, seed), cover,
-             cv::ROTATE_90_COUNTERCLOCKWISE);
-  const cv::Mat title = DrawSpine(PixelsFor(size.x(), size.z(), 2400), color, seed + 1);
+  const auto cover = [=] {
+    cv::Mat turned;
+    cv::rotate(DrawCover(PixelsFor(size.y(), size.x(), 1600), color, seed), turned,
+               cv::ROTATE_90_COUNTERCLOCKWISE);
+    return turned;
+  };
+  const auto title = [=] {
+    return DrawSpine(PixelsFor(size.x(), size.z(), 2400), color, seed + 1);
+  };
   const NoiseStyle paper = {
       .color = {0.8F, 0.88F, 0.9F}, .contrast = 0.25F, .period = 64, .num_octaves = 1};
   return {"book",
           {{WithPlanarUv(boards, {-0.5F * size.x(), -0.5F * size.y()}),
             Printed(cover, size.x(), size.y())},
            {spine, Printed(title, size.x(), size.z())},
-           {pages, Printed(DrawNoise({64, 64}, paper, seed), 0.3F, 0.02F)}}};
+           {pages, Printed(
+                       [=] {
+                         return DrawNoise({64, 64}, paper, seed);
+                       },
+                       0.3F, 0.02F)}}};
 }
 
 Object MakeCardboardBox(const Vector3f& size, std::uint64_t seed) {
   const TriangleMesh body = Translated(MakeBox(size), {0, 0, 0.5F * size.z()});
-  return {"box", {{body, Printed(DrawCardboard({384, 320}, seed), size.x(), size.z())}}};
+  return {"box",
+          {{body, Printed(
+                      [=] {
+                        return DrawCardboard({384, 320}, seed);
+                      },
+                      size.x(), size.z())}}};
 }
 
 Object MakeTelephone(std::uint64_t seed) {
@@ -96,7 +106,7 @@ Object MakeTelephone(std::uint64_t seed) {
            {keys, Plastic(key_color)},
            {on_top(handset, {-0.055F, 0, 0}), GrainyPlastic(color * 0.85F, seed + 1)},
            {display, Plastic({0.45F, 0.6F, 0.5F}, 0.4F)},
-           {MakeTube(cord, 0.004F, 8), Plastic(color * 0.6F)}}};
+           {MakeTube(SmoothLine(cord), 0.004F, 8), Plastic(color * 0.6F)}}};
 }
 
 Object MakePenHolder(std::uint64_t seed) {
@@ -113,7 +123,11 @@ Object MakePenHolder(std::uint64_t seed) {
   const NoiseStyle style = {
       .color = RandomColor(random, 0.5, 0.5), .contrast = 0.6F, .period = 12, .num_octaves = 2};
   object.parts.push_back(
-      {MakeLathe(profile, 32, false), Printed(DrawNoise({128, 64}, style, seed), 0.24F, 0.1F)});
+      {MakeLathe(profile, 32, false), Printed(
+                                          [=] {
+                                            return DrawNoise({128, 64}, style, seed);
+                                          },
+                                          0.24F, 0.1F)});
   for (int i = 0; i < 6; ++i) {
     const auto angle = static_cast<float>(random.Uniform(0, 2 * kPi));
     const Vector3f side(std::cos(angle), std::sin(angle), 0);
@@ -132,64 +146,11 @@ Object MakePaper(std::uint64_t seed) {
   const Vector3f size(0.21F, 0.297F, 0.0006F);
   const TriangleMesh sheet = Translated(MakeBox(size), {0, 0, 0.5F * size.z()});
   return {"paper",
-          {{WithPlanarUv(sheet, -0.5F * size.head<2>()),
-            Printed(DrawPage({512, 724}, seed), size.x(), size.y())}}};
-}
-
-Object MakeDesk(const Vector3f& size, std::uint64_t seed) {
-  constexpr float kTop = 0.03F;
-  constexpr float kLeg = 0.05F;
-  const TriangleMesh top = Translated(MakeRoundedBox({size.x(), size.y(), kTop}, 0.006F),
-                                      {0, 0, size.z() - 0.5F * kTop});
-  TriangleMesh legs;
-  for (const float side_x : {-1.0F, 1.0F}) {
-    for (const float side_y : {-1.0F, 1.0F}) {
-      legs.Append(Translated(MakeBox({kLeg, kLeg, size.z() - kTop}),
-                             {side_x * (0.5F * size.x() - kLeg), side_y * (0.5F * size.y() - kLeg),
-                              0.5F * (size.z() - kTop)}));
-    }
-  }
-  Material wood = Printed(DrawWood({1024, 512}, {0.36F, 0.55F, 0.74F}, seed), 1.2F, 0.6F);
-  wood.specular = 0.05F;
-  return {"desk",
-          {{WithPlanarUv(top, -0.5F * size.head<2>()), wood},
-           {legs, Plastic(Vector3f::Constant(0.35F), 0.3F)}}};
-}
-
-Object MakePoster(float width, float height, std::uint64_t seed) {
-  const TriangleMesh sheet = MakeBox({width, 0.004F, height});
-  return {"poster",
-          {{sheet, Printed(DrawPoster(PixelsFor(width, height, 900), seed), width, height)}}};
-}
-
-Object MakeShelf(float width, float depth, std::uint64_t seed) {
-  const TriangleMesh board = Translated(MakeBox({width, depth, 0.024F}), {0, 0, -0.012F});
-  return {"shelf",
-          {{board, Printed(DrawWood({512, 256}, {0.5F, 0.66F, 0.78F}, seed), 0.8F, 0.4F)}}};
-}
-
-Object MakeFloor(float width, float depth, std::uint64_t seed) {
-  return {"floor",
-          {{MakeRectangle(width, depth),
-            Printed(DrawCarpet({512, 512}, {0.42F, 0.38F, 0.36F}, seed), 0.8F, 0.8F)}}};
-}
-
-Object MakeWall(float width, float height, std::uint64_t seed) {
-  const NoiseStyle plaster = {.color = {0.78F, 0.83F, 0.85F},
-                              .contrast = 0.07F,
-                              .period = 24,
-                              .num_octaves = 4,
-                              .roughness = 0.95F};
-  return {"wall",
-          {{MakeUpright(width, height, {0, 0, 0.5F * height}),
-            Printed(DrawNoise({512, 512}, plaster, seed), 1.0F, 1.0F)}}};
-}
-
-Object MakeCeiling(float width, float depth, std::uint64_t seed) {
-  const NoiseStyle paint = {.color = {0.88F, 0.9F, 0.9F}, .contrast = 0.05F, .period = 16};
-  return {"ceiling",
-          {{Placed(MakeRectangle(width, depth), {kPi, 0, 0}, Vector3f::Zero()),
-            Printed(DrawNoise({256, 256}, paint, seed), 1.0F, 1.0F)}}};
+          {{WithPlanarUv(sheet, -0.5F * size.head<2>()), Printed(
+                                                             [=] {
+                                                               return DrawPage({512, 724}, seed);
+                                                             },
+                                                             size.x(), size.y())}}};
 }
 
 }  // namespace semslam

@@ -52,6 +52,14 @@ void DrawWindow(cv::Mat& image, const cv::Rect& area, Random& random) {
   cv::rectangle(image, area, cv::Scalar(90, 90, 90), 1);
 }
 
+// What is behind the windows: a photograph, or shapes on one colour.
+cv::Mat DrawDesktop(cv::Size size, std::uint64_t seed, Random& random) {
+  if (random.Uniform() < 0.5) return DrawOutdoors(size, seed);
+  cv::Mat image(size, CV_8UC3, ToScalar(RandomColor(random, 0.5, 0.45)));
+  DrawShapes(image, {0, 0, size.width, size.height}, 12, random);
+  return image;
+}
+
 }  // namespace
 
 cv::Mat DrawPage(cv::Size size, std::uint64_t seed) {
@@ -81,10 +89,22 @@ cv::Mat DrawPoster(cv::Size size, std::uint64_t seed) {
 
 cv::Mat DrawScreen(cv::Size size, std::uint64_t seed) {
   Random random(seed);
-  cv::Mat image(size, CV_8UC3, ToScalar(RandomColor(random, 0.5, 0.45)));
-  DrawShapes(image, {0, 0, size.width, size.height}, 12, random);
-  DrawWindow(image, Part(image, 40, 50, 500, 760), random);
-  DrawWindow(image, Part(image, 480, 160, 480, 700), random);
+  cv::Mat image = DrawDesktop(size, seed, random);
+  const auto kind = random.Index(4);
+  if (kind == 0) {  // One large window.
+    DrawWindow(image, Part(image, 60, 40, 880, 850), random);
+  } else if (kind == 1) {  // Icons on the left, a window on the right.
+    for (int i = 0; i < 10; ++i) {
+      const cv::Rect icon = Part(image, 30 + 90 * (i / 5), 60 + 165 * (i % 5), 50, 75);
+      cv::rectangle(image, icon, ToScalar(RandomColor(random, 0.5, 0.9)), cv::FILLED);
+      DrawTextLine(image, {icon.x, icon.br().y + 3, icon.width * 8 / 5, 12}, {240, 240, 240},
+                   random);
+    }
+    DrawWindow(image, Part(image, 330, 110, 600, 720), random);
+  } else {
+    DrawWindow(image, Part(image, 40, 50, 500, 760), random);
+    DrawWindow(image, Part(image, 480, 160, 480, 700), random);
+  }
   cv::rectangle(image, Part(image, 0, 930, 1000, 70), cv::Scalar(60, 50, 45), cv::FILLED);
   for (int i = 0; i < 8; ++i) {
     cv::rectangle(image, Part(image, 20 + 60 * i, 943, 40, 45),

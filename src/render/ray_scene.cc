@@ -3,7 +3,7 @@
 #include "render/ray_scene.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 #include <embree3/rtcore.h>
 
@@ -33,18 +33,24 @@ void Attach(RTCDevice device, const TriangleMesh& mesh, unsigned id, RTCScene sc
   rtcReleaseGeometry(geometry);
 }
 
-RTCRay ToEmbree(const Ray& ray) {
-  RTCRay result{};
-  result.org_x = ray.origin.x();
-  result.org_y = ray.origin.y();
-  result.org_z = ray.origin.z();
-  result.dir_x = ray.direction.x();
-  result.dir_y = ray.direction.y();
-  result.dir_z = ray.direction.z();
-  result.tnear = 0.0F;
-  result.tfar = ray.length;
-  result.mask = 0xffffffffU;
-  return result;
+constexpr std::size_t kPacket = 8;  // Rays that are cast together.
+
+// Copies rays from index `first` on. All else of a packet stays 0, but for the mask.
+void FillPacket(const RayBatch& rays, std::size_t first, RTCRay8* packet) {
+  std::copy_n(rays.origin.x.data() + first, kPacket, packet->org_x);
+  std::copy_n(rays.origin.y.data() + first, kPacket, packet->org_y);
+  std::copy_n(rays.origin.z.data() + first, kPacket, packet->org_z);
+  std::copy_n(rays.direction.x.data() + first, kPacket, packet->dir_x);
+  std::copy_n(rays.direction.y.data() + first, kPacket, packet->dir_y);
+  std::copy_n(rays.direction.z.data() + first, kPacket, packet->dir_z);
+  std::copy_n(rays.length.data() + first, kPacket, packet->tfar);
+}
+
+// -1 for each lane that holds a ray to be cast.
+void FillValid(const RayBatch& rays, std::size_t first, int* valid) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    valid[i] = first + i < rays.size() && rays.length[first + i] >= 0 ? -1 : 0;
+  }
 }
 
 RTCIntersectContext CoherentContext() {
@@ -82,37 +88,54 @@ class RayScene::Impl {
   RTCScene scene_ = nullptr;
 };
 
+void RayBatch::Resize(std::size_t size) {
+  size_ = size;
+  origin.Resize(size);
+  direction.Resize(size);
+  length.Resize(size);
+}
+
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<const Impl>(scene)) {}
 RayScene::~RayScene() = default;
 
-void RayScene::Intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
-  SEMSLAM_CHECK(rays.size() == hits.size());
-  std::vector<RTCRayHit> stream(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    stream[i].ray = ToEmbree(rays[i]);
-    stream[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    stream[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  }
+void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {
+  hits->part.resize(rays.size() + FloatRow::kRoom);
+  hits->triangle.resize(rays.size() + FloatRow::kRoom);
+  for (FloatRow* row : {&hits->u, &hits->v, &hits->distance}) row->Resize(rays.size());
   RTCIntersectContext context = CoherentContext();
-  rtcIntersect1M(impl_->scene(), &context, stream.data(), static_cast<unsigned>(stream.size()),
-                 sizeof(RTCRayHit));
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RTCHit& hit = stream[i].hit;
-    hits[i] = {};
-    if (hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-    hits[i] = {hit.geomID, hit.primID, hit.u, hit.v, stream[i].ray.tfar};
+  RTCRayHit8 packet = {};
+  std::fill_n(packet.ray.mask, kPacket, 0xffffffffU);
+  alignas(32) std::array<int, kPacket> valid;
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    FillPacket(rays, first, &packet.ray);
+    FillValid(rays, first, valid.data());
+    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect8(valid.data(), impl_->scene(), &context, &packet);
+    static_assert(RTC_INVALID_GEOMETRY_ID == Hit::kNone);
+    std::copy_n(packet.hit.geomID, kPacket, hits->part.data() + first);
+    std::copy_n(packet.hit.primID, kPacket, hits->triangle.data() + first);
+    std::copy_n(packet.hit.u, kPacket, hits->u.data() + first);
+    std::copy_n(packet.hit.v, kPacket, hits->v.data() + first);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      hits->distance[first + i] = packet.hit.geomID[i] == Hit::kNone ? 0.0F : packet.ray.tfar[i];
+    }
   }
 }
 
-void RayScene::Occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
-  SEMSLAM_CHECK(rays.size() == occluded.size());
-  std::vector<RTCRay> stream(rays.size());
-  std::transform(rays.begin(), rays.end(), stream.begin(), ToEmbree);
+void RayScene::Visibility(const RayBatch& rays, FloatRow* visible) const {
+  visible->Resize(rays.size());
   RTCIntersectContext context = CoherentContext();
-  rtcOccluded1M(impl_->scene(), &context, stream.data(), static_cast<unsigned>(stream.size()),
-                sizeof(RTCRay));
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    occluded[i] = stream[i].tfar < 0 ? 1 : 0;  // Embree's answer is minus infinity.
+  RTCRay8 packet = {};
+  std::fill_n(packet.mask, kPacket, 0xffffffffU);
+  alignas(32) std::array<int, kPacket> valid;
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    FillPacket(rays, first, &packet);
+    FillValid(rays, first, valid.data());
+    rtcOccluded8(valid.data(), impl_->scene(), &context, &packet);
+    for (std::size_t i = 0; i < kPacket; ++i) {  // Embree's "occluded" is minus infinity.
+      (*visible)[first + i] = packet.tfar[i] < 0 ? 0.0F : 1.0F;
+    }
   }
 }
 

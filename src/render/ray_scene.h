@@ -4,30 +4,40 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "semslam/render/scene.h"
 
+#include "render/lanes.h"
+
 namespace semslam {
 
-// A ray starts at `origin` and ends after `length` times `direction`.
-struct Ray {
-  Eigen::Vector3f origin;
-  Eigen::Vector3f direction;
-  float length;
+// Rays side by side. A ray starts at `origin` and ends after `length` times `direction`; one with a
+// negative length is not cast.
+class RayBatch {
+ public:
+  void Resize(std::size_t size);
+  std::size_t size() const { return size_; }
+
+  VectorRow origin;
+  VectorRow direction;
+  FloatRow length;
+
+ private:
+  std::size_t size_ = 0;
 };
 
-// Where a ray first meets a surface.
 struct Hit {
   static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::uint32_t part = kNone;  // Index into Scene::parts, kNone: nothing hit.
-  std::uint32_t triangle = 0;
-  float u = 0;  // Barycentric weights of the triangle's second and third corner.
-  float v = 0;
-  float distance = 0;  // In lengths of the direction.
+};
+
+// Where each ray of a batch first meets a surface.
+struct HitBatch {
+  std::vector<std::uint32_t> part;      // Index into Scene::parts, Hit::kNone: nothing hit.
+  std::vector<std::uint32_t> triangle;  // Of the part's mesh.
+  FloatRow u;  // Barycentric weights of the triangle's second and third corner.
+  FloatRow v;
+  FloatRow distance;  // In lengths of the direction; 0 if nothing is hit.
 };
 
 // The scene in a form for fast ray casting (Embree). Safe to use from several threads.
@@ -38,10 +48,10 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
   ~RayScene();
 
-  // Rays that lie close together are fast. `hits` is as long as `rays`.
-  void Intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-  // 1 where something is in the ray's way, else 0.
-  void Occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+  // Rays that lie close together are fast.
+  void Intersect(const RayBatch& rays, HitBatch* hits) const;
+  // 0 where something is in the ray's way or the ray is not cast, else 1.
+  void Visibility(const RayBatch& rays, FloatRow* visible) const;
 
  private:
   class Impl;

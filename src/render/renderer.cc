@@ -6,13 +6,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "semslam/base/guarded.h"
 #include "semslam/base/parallel.h"
 
 #include "render/light_buffer.h"
 #include "render/ray_scene.h"
 #include "render/shading.h"
+#include "render/surface.h"
 
 namespace semslam {
 namespace {
@@ -26,11 +30,8 @@ struct View {
   Eigen::Vector3d p_world_camera;
   Eigen::Matrix3d R_world_camera;
   float pixel_angle;  // Radians a pixel covers.
+  int stride;         // Pixels from row to row of the surface points: the width or a little more.
 };
-
-Eigen::Vector3d WorldDirection(const View& view, const Eigen::Vector2f& ray) {
-  return view.R_world_camera * Eigen::Vector3d(ray.x(), ray.y(), 1.0);
-}
 
 // In the middle of the picture.
 float PixelAngle(const RayTable& rays) {
@@ -39,152 +40,271 @@ float PixelAngle(const RayTable& rays) {
   return (rays.At(column, row) - rays.At(column - 1, row)).norm();
 }
 
-// A ray whose lengths are depths.
-Ray CameraRay(const View& view, const Eigen::Vector2f& ray) {
-  return {view.p_world_camera.cast<float>(), WorldDirection(view, ray).cast<float>(), kFar};
+// Turns directions in the camera's frame (x / z, y / z) into rays whose lengths are depths.
+class CameraRays {
+ public:
+  CameraRays(const View& view, std::size_t size)
+      : R_world_camera_(view.R_world_camera.cast<float>()) {
+    batch_.Resize(size);
+    const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
+    for (std::size_t i = 0; i < size; i += 4) {
+      batch_.origin.Set(i, {eye.x(), eye.y(), eye.z()});
+      batch_.length.Set(i, kFar);
+    }
+  }
+  void Set(std::size_t index, const Eigen::Vector2f& ray) {
+    const Eigen::Vector3f direction = R_world_camera_.col(0) * ray.x() +
+                                      R_world_camera_.col(1) * ray.y() + R_world_camera_.col(2);
+    batch_.direction.x[index] = direction.x();
+    batch_.direction.y[index] = direction.y();
+    batch_.direction.z[index] = direction.z();
+  }
+  const RayBatch& batch() const { return batch_; }
+
+ private:
+  Eigen::Matrix3f R_world_camera_;
+  RayBatch batch_;
+};
+
+// Depth at which rays meet the plane of a triangle, in double precision, so that the truth does not
+// carry the ray caster's rounding. Neighbouring pixels mostly see one triangle, whose plane is
+// kept.
+class ExactDepth {
+ public:
+  ExactDepth(const Scene& scene, const View& view) : scene_(scene), view_(view) {}
+
+  double At(std::uint32_t part,
+            std::uint32_t triangle,
+            const Eigen::Vector2f& ray,
+            float approximate_depth) {
+    if (part != part_ || triangle != triangle_) SetPlane(part, triangle);
+    const double slope = normal_camera_.dot(Eigen::Vector3d(ray.x(), ray.y(), 1.0));
+    if (std::abs(slope) <= min_slope_) return approximate_depth;  // Seen edge on.
+    return offset_ / slope;
+  }
+
+ private:
+  void SetPlane(std::uint32_t part, std::uint32_t triangle) {
+    part_ = part;
+    triangle_ = triangle;
+    const TriangleMesh& mesh = scene_.parts()[part].mesh;
+    const Eigen::Vector3i& corners = mesh.triangles[triangle];
+    const Eigen::Vector3d a = mesh.positions[corners[0]].cast<double>();
+    const Eigen::Vector3d b = mesh.positions[corners[1]].cast<double>();
+    const Eigen::Vector3d c = mesh.positions[corners[2]].cast<double>();
+    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    normal_camera_ = view_.R_world_camera.transpose() * normal;
+    offset_ = normal.dot(a - view_.p_world_camera);
+    min_slope_ = 1e-6 * normal.norm();
+  }
+
+  const Scene& scene_;
+  const View& view_;
+  std::uint32_t part_ = Hit::kNone;
+  std::uint32_t triangle_ = 0;
+  Eigen::Vector3d normal_camera_ = Eigen::Vector3d::Zero();
+  double offset_ = 0;
+  double min_slope_ = 0;
+};
+
+// One bit for each of four pixels from index `a` on: an edge that shows runs between it and its
+// neighbour, from index `b` on.
+int EdgeBits(const SurfacePoints& points, std::size_t a, std::size_t b) {
+  const auto parts = [&](std::size_t index) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(points.part.data() + index));
+  };
+  const int same = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(parts(a), parts(b))));
+  const Vector4 normal = points.normal.At(a);
+  const Float4 step =
+      Abs(Dot(points.face_normal.At(a), points.p_world.At(b) - points.p_world.At(a)));
+  return (~same & 0xf) |
+         LessBits(Dot(normal, points.normal.At(b)), Float4(0.9F) * Dot(normal, normal)) |
+         LessBits(Float4(3.0F) * points.footprint.At(a), step);
 }
 
-// Depth at which the ray meets the plane of the triangle, in double precision, so that the truth
-// does not carry the ray caster's rounding.
-double ExactDepth(const TriangleMesh& mesh,
-                  const Hit& hit,
-                  const View& view,
-                  const Eigen::Vector2f& ray) {
-  const Eigen::Vector3i& corners = mesh.triangles[hit.triangle];
-  const Eigen::Vector3d a = mesh.positions[corners[0]].cast<double>();
-  const Eigen::Vector3d b = mesh.positions[corners[1]].cast<double>();
-  const Eigen::Vector3d c = mesh.positions[corners[2]].cast<double>();
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const double slope = normal.dot(WorldDirection(view, ray));
-  if (std::abs(slope) <= 1e-6 * normal.norm()) return hit.distance;  // Seen edge on.
-  return normal.dot(a - view.p_world_camera) / slope;
+// True if a pixel looks different from one of its neighbours: else smoothing would not show.
+bool HasContrast(const cv::Mat& radiance, int column, int row) {
+  constexpr float kLevel = 8.0F / 255.0F;  // Of gamma-coded colour: a step that noise hides.
+  const auto& center = radiance.ptr<cv::Vec3f>(row)[column];
+  for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    const int x = std::clamp(column + dx, 0, radiance.cols - 1);
+    const int y = std::clamp(row + dy, 0, radiance.rows - 1);
+    const auto& other = radiance.ptr<cv::Vec3f>(y)[x];
+    for (int k = 0; k < 3; ++k) {
+      // Levels are square roots: their difference is that of light over their sum.
+      const float difference = center[k] - other[k];
+      if (difference * difference > 4.0F * kLevel * kLevel * std::max(center[k], other[k]))
+        return true;
+    }
+  }
+  return false;
 }
 
-// True if an edge that shows runs between two neighbouring pixels.
-bool IsEdge(const SurfacePoint& a, const SurfacePoint& b) {
-  if (a.part != b.part) return true;
-  if (a.part == Hit::kNone) return false;
-  if (a.normal.dot(b.normal) < 0.9F) return true;
-  const float step = std::abs(a.face_normal.dot(b.p_world - a.p_world));
-  return step > 3.0F * a.footprint;
+void SetColor(const Vector4& color, int count, cv::Vec3f* pixels) {
+  std::array<std::array<float, 4>, 3> channels;
+  color.x.Store(channels[0].data());
+  color.y.Store(channels[1].data());
+  color.z.Store(channels[2].data());
+  for (int i = 0; i < count; ++i) pixels[i] = {channels[0][i], channels[1][i], channels[2][i]};
 }
+
+// Memory that one picture needs, and the next one again.
+struct Workspace {
+  SurfacePoints points;
+  LightBuffer light;
+};
 
 }  // namespace
 
 class Renderer::Impl {
  public:
   Impl(const Scene& scene, const Options& options)
-      : scene_(scene), options_(options), ray_scene_(scene) {}
+      : scene_(scene), options_(options), ray_scene_(scene), triangles_(scene) {}
 
-  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera) const {
+  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera, int num_threads) const {
     const View view = {rays, T_world_camera.translation, T_world_camera.rotation.toRotationMatrix(),
-                       PixelAngle(rays)};
+                       PixelAngle(rays), (rays.width() + 3) / 4 * 4};
     const cv::Size size(rays.width(), rays.height());
     IdealImage image;
     image.radiance.create(size, CV_32FC3);
     image.depth.create(size, CV_64FC1);
     image.labels.create(size, CV_16UC1);
     image.incidence.create(size, CV_32FC1);
-    std::vector<SurfacePoint> surface(static_cast<std::size_t>(size.area()));
-    ForRows(size.height, [&](int row) { TraceRow(view, row, surface, &image); });
-    const LightBuffer light(scene_, ray_scene_, surface, size.width, LightOptions());
-    ForRows(size.height, [&](int row) { ShadeRow(view, row, surface, light, &image); });
+    std::unique_ptr<Workspace> workspace = TakeWorkspace();
+    SurfacePoints& points = workspace->points;
+    points.Resize(static_cast<std::size_t>(view.stride) * size.height);
+    ForRows(size.height, num_threads, [&](int row) { TraceRow(view, row, points, &image); });
+    workspace->light.Fill(scene_, ray_scene_, {points, size.width, size.height, view.stride},
+                          {options_.shadows, static_cast<float>(options_.occlusion_reach)},
+                          num_threads);
+    ForRows(size.height, num_threads, [&](int row) { ShadeRow(view, row, *workspace, &image); });
+    if (options_.smooth_edges) SmoothEdges(view, *workspace, num_threads, &image.radiance);
+    idle_.Write([&](auto& idle) { idle.push_back(std::move(workspace)); });
     return image;
   }
 
  private:
-  LightBuffer::Options LightOptions() const {
-    return {options_.shadows, static_cast<float>(options_.occlusion_reach), options_.num_threads};
+  template <typename Body>
+  static void ForRows(int num_rows, int num_threads, const Body& body) {
+    ParallelFor(num_rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
+    });
   }
 
-  template <typename Body>
-  void ForRows(int num_rows, const Body& body) const {
-    ParallelFor(num_rows, kRowsPerChunk, options_.num_threads,
-                [&](std::size_t first, std::size_t last) {
-                  for (std::size_t row = first; row < last; ++row) body(static_cast<int>(row));
-                });
+  std::unique_ptr<Workspace> TakeWorkspace() const {
+    return idle_.Write([](auto& idle) {
+      if (idle.empty()) return std::make_unique<Workspace>();
+      std::unique_ptr<Workspace> workspace = std::move(idle.back());
+      idle.pop_back();
+      return workspace;
+    });
   }
 
   // Fills one row of surface points, depth, labels and incidence.
-  void TraceRow(const View& view,
-                int row,
-                std::vector<SurfacePoint>& surface,
-                IdealImage* image) const {
+  void TraceRow(const View& view, int row, SurfacePoints& points, IdealImage* image) const {
     const int width = view.rays.width();
-    std::vector<Ray> rays(static_cast<std::size_t>(width));
-    std::vector<Hit> hits(rays.size());
-    for (int x = 0; x < width; ++x) rays[x] = CameraRay(view, view.rays.At(x, row));
-    ray_scene_.Intersect(rays, hits);
+    CameraRays rays(view, static_cast<std::size_t>(view.stride));
+    for (int x = 0; x < view.stride; ++x) rays.Set(x, view.rays.At(std::min(x, width - 1), row));
+    HitBatch hits;
+    ray_scene_.Intersect(rays.batch(), &hits);
+    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
+    triangles_.Locate(rays.batch(), hits, view.pixel_angle, first, &points);
+    ExactDepth exact(scene_, view);
     for (int x = 0; x < width; ++x) {
-      SurfacePoint& point = surface[static_cast<std::size_t>(row) * width + x];
-      point = LocateHit(scene_, hits[x], rays[x], view.pixel_angle);
-      const bool is_hit = point.part != Hit::kNone;
+      const std::uint32_t part = hits.part[x];
+      const bool is_hit = part != Hit::kNone;
       image->depth.at<double>(row, x) =
-          is_hit ? ExactDepth(scene_.parts()[point.part].mesh, hits[x], view, view.rays.At(x, row))
-                 : 0.0;
-      image->labels.at<std::uint16_t>(row, x) = is_hit ? scene_.parts()[point.part].instance_id : 0;
-      image->incidence.at<float>(row, x) = point.incidence;
+          is_hit ? exact.At(part, hits.triangle[x], view.rays.At(x, row), hits.distance[x]) : 0.0;
+      image->labels.at<std::uint16_t>(row, x) = is_hit ? scene_.parts()[part].instance_id : 0;
+      image->incidence.at<float>(row, x) = points.incidence[first + x];
     }
   }
 
-  // Colours one row; pixels that an edge crosses get the mean of their centre and four points more.
-  void ShadeRow(const View& view,
-                int row,
-                const std::vector<SurfacePoint>& surface,
-                const LightBuffer& light,
-                IdealImage* image) const {
+  void ShadeRow(const View& view, int row, const Workspace& workspace, IdealImage* image) const {
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
     const int width = view.rays.width();
-    std::vector<int> edge_columns;
-    for (int x = 0; x < width; ++x) {
-      const SurfacePoint& point = surface[static_cast<std::size_t>(row) * width + x];
-      const Eigen::Vector3f color = Shade(scene_, point, eye, light.At(point, x, row));
-      image->radiance.at<cv::Vec3f>(row, x) = {color.x(), color.y(), color.z()};
-      if (options_.smooth_edges && TouchesEdge(surface, x, row, width)) edge_columns.push_back(x);
+    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
+    auto* pixels = image->radiance.ptr<cv::Vec3f>(row);
+    for (int x = 0; x < width; x += 4) {
+      const Lighting light = workspace.light.AtPixels(workspace.points, first + x, x, row);
+      SetColor(Shade(scene_, workspace.points, first + x, eye, light), std::min(4, width - x),
+               pixels + x);
     }
-    SmoothPixels(view, row, edge_columns, light, image);
   }
 
-  static bool TouchesEdge(const std::vector<SurfacePoint>& surface, int x, int y, int width) {
-    const std::size_t index = static_cast<std::size_t>(y) * width + x;
-    const SurfacePoint& point = surface[index];
-    if (x > 0 && IsEdge(point, surface[index - 1])) return true;
-    if (x + 1 < width && IsEdge(point, surface[index + 1])) return true;
-    if (y > 0 && IsEdge(point, surface[index - width])) return true;
-    return index + width < surface.size() && IsEdge(point, surface[index + width]);
+  // Pixels that an edge crosses get the mean of their centre and four points more.
+  void SmoothEdges(const View& view,
+                   const Workspace& workspace,
+                   int num_threads,
+                   cv::Mat* radiance) const {
+    std::vector<std::vector<int>> columns(static_cast<std::size_t>(radiance->rows));
+    ForRows(radiance->rows, num_threads, [&](int row) {
+      for (const int column : EdgeColumns(view, row, workspace.points)) {
+        if (HasContrast(*radiance, column, row)) columns[row].push_back(column);
+      }
+    });
+    ForRows(radiance->rows, num_threads, [&](int row) {
+      SmoothPixels(view, row, columns[row], workspace.light, radiance->ptr<cv::Vec3f>(row));
+    });
+  }
+
+  // The pixels of a row beside an edge.
+  static std::vector<int> EdgeColumns(const View& view, int row, const SurfacePoints& points) {
+    const int width = view.rays.width();
+    const std::size_t stride = view.stride;
+    const std::size_t first = row * stride;
+    std::vector<int> columns;
+    for (int x = 0; x < width; x += 4) {
+      const std::size_t index = first + x;
+      int bits = EdgeBits(points, index, index + 1);
+      if (x + 4 >= width) bits &= (1 << (width - 1 - x)) - 1;  // Nothing right of the last column.
+      // Each pixel is compared with its left neighbour, too: an edge has two sides.
+      if (x > 0) {
+        bits |= EdgeBits(points, index, index - 1);
+      } else {
+        bits |= EdgeBits(points, index + 1, index) << 1;
+      }
+      if (row > 0) bits |= EdgeBits(points, index, index - stride);
+      if (row + 1 < view.rays.height()) bits |= EdgeBits(points, index, index + stride);
+      for (int lane = 0; lane < std::min(4, width - x); ++lane) {
+        if ((bits >> lane & 1) != 0) columns.push_back(x + lane);
+      }
+    }
+    return columns;
   }
 
   void SmoothPixels(const View& view,
                     int row,
                     const std::vector<int>& columns,
                     const LightBuffer& light,
-                    IdealImage* image) const {
+                    cv::Vec3f* pixels) const {
     constexpr int kSamples = 4;
     // A rotated square: every sample has a column and a row of its own.
     constexpr std::array<std::array<float, 2>, kSamples> kOffsets = {
         {{-0.125F, -0.375F}, {0.375F, -0.125F}, {0.125F, 0.375F}, {-0.375F, 0.125F}}};
-    const int width = view.rays.width();
-    std::vector<Ray> rays;
-    rays.reserve(columns.size() * kSamples);
-    for (const int x : columns) {
+    CameraRays rays(view, columns.size() * kSamples);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const int x = columns[i];
       const Eigen::Vector2f center = view.rays.At(x, row);
-      const Eigen::Vector2f step_x =
-          x + 1 < width ? view.rays.At(x + 1, row) - center : center - view.rays.At(x - 1, row);
+      const Eigen::Vector2f step_x = x + 1 < view.rays.width() ? view.rays.At(x + 1, row) - center
+                                                               : center - view.rays.At(x - 1, row);
       const Eigen::Vector2f step_y(-step_x.y(), step_x.x());
-      for (const auto& [dx, dy] : kOffsets) {
-        rays.push_back(CameraRay(view, center + dx * step_x + dy * step_y));
+      for (std::size_t k = 0; k < kSamples; ++k) {
+        rays.Set(i * kSamples + k, center + kOffsets[k][0] * step_x + kOffsets[k][1] * step_y);
       }
     }
-    std::vector<Hit> hits(rays.size());
-    ray_scene_.Intersect(rays, hits);
+    HitBatch hits;
+    ray_scene_.Intersect(rays.batch(), &hits);
+    SurfacePoints points;
+    points.Resize(rays.batch().size());
+    triangles_.Locate(rays.batch(), hits, view.pixel_angle, 0, &points);
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      auto& color = image->radiance.at<cv::Vec3f>(row, columns[i]);
-      for (std::size_t k = i * kSamples; k < (i + 1) * kSamples; ++k) {
-        const SurfacePoint point = LocateHit(scene_, hits[k], rays[k], view.pixel_angle);
-        const Eigen::Vector3f sample = Shade(scene_, point, eye, light.At(point, columns[i], row));
-        color += cv::Vec3f(sample.x(), sample.y(), sample.z());
-      }
+      std::array<cv::Vec3f, kSamples> samples;
+      const Lighting arriving = light.NearPixel(points, i * kSamples, columns[i], row);
+      SetColor(Shade(scene_, points, i * kSamples, eye, arriving), kSamples, samples.data());
+      cv::Vec3f& color = pixels[columns[i]];
+      for (const cv::Vec3f& sample : samples) color += sample;
       color *= 1.0F / (kSamples + 1);
     }
   }
@@ -192,6 +312,8 @@ class Renderer::Impl {
   const Scene& scene_;
   Options options_;
   RayScene ray_scene_;
+  TriangleTable triangles_;
+  mutable Guarded<std::vector<std::unique_ptr<Workspace>>> idle_;
 };
 
 Renderer::Renderer(const Scene& scene, const Options& options)
@@ -200,8 +322,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-IdealImage Renderer::Render(const RayTable& rays, const Rigid3& T_world_camera) const {
-  return impl_->Render(rays, T_world_camera);
+IdealImage Renderer::Render(const RayTable& rays,
+                            const Rigid3& T_world_camera,
+                            int num_threads) const {
+  return impl_->Render(rays, T_world_camera, num_threads);
 }
 
 }  // namespace semslam

@@ -3,8 +3,11 @@
 #include "semslam/render/scene.h"
 
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/base/parallel.h"
 
 namespace semslam {
 namespace {
@@ -35,6 +38,27 @@ std::uint16_t Scene::Add(const Object& object, const Rigid3& T_world_object) {
     parts_.push_back({Transformed(part.mesh, T_world_object), part.material, id});
   }
   return id;
+}
+
+void Scene::Paint(int num_threads) {
+  // Each picture once, in the order of the parts; many parts may share one.
+  std::map<const Picture*, std::size_t> index_of_picture;
+  std::vector<std::shared_ptr<const Picture>> pictures;
+  for (const ScenePart& part : parts_) {
+    const std::shared_ptr<const Picture>& picture = part.material.picture;
+    if (picture && index_of_picture.try_emplace(picture.get(), pictures.size()).second)
+      pictures.push_back(picture);
+  }
+  std::vector<std::shared_ptr<const Texture>> textures(pictures.size());
+  ParallelFor(pictures.size(), 1, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      textures[i] = std::make_shared<const Texture>((*pictures[i])());
+  });
+  for (ScenePart& part : parts_) {
+    if (!part.material.picture) continue;
+    part.material.texture = textures[index_of_picture.at(part.material.picture.get())];
+    part.material.picture = nullptr;
+  }
 }
 
 void Scene::SetAmbient(const Eigen::Vector3f& from_above, const Eigen::Vector3f& from_below) {

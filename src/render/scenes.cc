@@ -4,23 +4,35 @@
 
 #include "semslam/base/error.h"
 
+#include "render/built_in_scenes.h"
+#include "render/scene_node.h"
+
 namespace semslam {
 namespace {
 
-std::string Listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
+bool IsPath(const std::string& scene) { return scene.find_first_of("./\\") != std::string::npos; }
 
 }  // namespace
 
-std::vector<std::string> SceneNames() { return {"desk", "wall"}; }
+std::vector<std::string> SceneNames() {
+  std::vector<std::string> names;
+  for (const BuiltInScene& scene : BuiltInScenes()) names.emplace_back(scene.name);
+  return names;
+}
 
-StagedScene MakeScene(const std::string& name, std::uint64_t seed) {
-  if (name == "desk") return MakeDeskScene(seed);
-  if (name == "wall") return MakeWallScene(seed);
-  throw InputError("scene " + name + ": unknown, expected one of " + Listed(SceneNames()));
+std::string SceneText(const std::string& name) {
+  for (const BuiltInScene& scene : BuiltInScenes()) {
+    if (name == scene.name) return scene.text;
+  }
+  throw InputError("scene " + name + ": unknown, expected one of " + JoinNames(SceneNames()) +
+                   " or a .yaml file");
+}
+
+StagedScene MakeScene(const std::string& name_or_path, std::uint64_t seed, int num_threads) {
+  if (IsPath(name_or_path)) return LoadScene(name_or_path, seed, num_threads);
+  StagedScene staged = ParseScene(SceneText(name_or_path), name_or_path + ".yaml", seed);
+  staged.scene.Paint(num_threads);
+  return staged;
 }
 
 std::vector<std::string> CameraNames() { return {"TUM1", "TUM3", "Xtion"}; }
@@ -39,7 +51,7 @@ PinholeCamera::Parameters CameraByName(const std::string& name) {
   }
   if (name == "TUM3") return {.fx = 535.4, .fy = 539.2, .cx = 320.1, .cy = 247.6};
   if (name == "Xtion") return {.fx = 525.0, .fy = 525.0, .cx = 319.5, .cy = 239.5};
-  throw InputError("camera " + name + ": unknown, expected one of " + Listed(CameraNames()));
+  throw InputError("camera " + name + ": unknown, expected one of " + JoinNames(CameraNames()));
 }
 
 }  // namespace semslam

@@ -2,85 +2,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/shading.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace semslam {
 namespace {
 
+using Lanes = std::array<float, 4>;
+
+Vector4 Broadcast(const Eigen::Vector3f& value) { return {value.x(), value.y(), value.z()}; }
+
+Vector4 Normalized(const Vector4& value) { return Float4(1.0F) / Sqrt(Dot(value, value)) * value; }
+
+// What the four points are made of.
+struct Coat {
+  Vector4 albedo;  // Linear. 0 where there is no surface.
+  std::array<const Material*, 4> materials = {};
+  Float4 emission;
+  bool has_highlights = false;
+};
+
 // Surface colour, linear. Colours are coded with gamma 2, so that decoding is a square.
-Eigen::Vector3f Albedo(const Material& material, const SurfacePoint& point) {
+Eigen::Vector3f Albedo(const Material& material, const SurfacePoints& points, std::size_t index) {
   Eigen::Vector3f coded = material.tint;
   if (material.texture) {
-    const Eigen::Vector2f uv = point.uv.cwiseProduct(material.repeats_per_metre);
-    const float footprint = point.footprint * material.repeats_per_metre.x();
+    const Eigen::Vector2f uv(points.u[index] * material.repeats_per_metre.x(),
+                             points.v[index] * material.repeats_per_metre.y());
+    const float footprint = points.footprint[index] * material.repeats_per_metre.x();
     coded = coded.cwiseProduct(material.texture->Sample(uv, footprint));
   }
   return coded.cwiseProduct(coded);
 }
 
-}  // namespace
-
-SurfacePoint LocateHit(const Scene& scene, const Hit& hit, const Ray& ray, float pixel_angle) {
-  SurfacePoint point;
-  if (hit.part == Hit::kNone) return point;
-  const TriangleMesh& mesh = scene.parts()[hit.part].mesh;
-  const Eigen::Vector3i& corners = mesh.triangles[hit.triangle];
-  const float w = 1.0F - hit.u - hit.v;
-  const Eigen::Vector3f& a = mesh.positions[corners[0]];
-  const Eigen::Vector3f& b = mesh.positions[corners[1]];
-  const Eigen::Vector3f& c = mesh.positions[corners[2]];
-  point.part = hit.part;
-  point.p_world = ray.origin + hit.distance * ray.direction;
-  point.face_normal = (b - a).cross(c - a).normalized();
-  point.normal = (w * mesh.normals[corners[0]] + hit.u * mesh.normals[corners[1]] +
-                  hit.v * mesh.normals[corners[2]])
-                     .normalized();
-  point.uv = w * mesh.uvs[corners[0]] + hit.u * mesh.uvs[corners[1]] + hit.v * mesh.uvs[corners[2]];
-  const float ray_norm = ray.direction.norm();
-  float cosine = -point.face_normal.dot(ray.direction) / ray_norm;
-  if (cosine < 0) {  // Seen from behind.
-    cosine = -cosine;
-    point.face_normal = -point.face_normal;
-    point.normal = -point.normal;
+Coat CoatOf(const Scene& scene, const SurfacePoints& points, std::size_t index) {
+  Coat coat;
+  std::array<Lanes, 3> albedo = {};
+  Lanes emission = {};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::uint32_t part = points.part[index + lane];
+    if (part == Hit::kNone) continue;
+    const Material& material = scene.parts()[part].material;
+    const Eigen::Vector3f color = Albedo(material, points, index + lane);
+    for (int k = 0; k < 3; ++k) albedo[k][lane] = color[k];
+    emission[lane] = material.emission;
+    coat.materials[lane] = &material;
+    coat.has_highlights |= material.specular > 0;
   }
-  point.incidence = std::min(cosine, 1.0F);
-  // Between the patch's short and long side, as a texture sample is round and the patch is not.
-  // Half a pixel more than the patch: lenses of such cameras are soft.
-  point.footprint =
-      1.5F * hit.distance * ray_norm * pixel_angle / std::sqrt(std::max(cosine, 0.05F));
-  return point;
+  coat.albedo = {Float4::Load(albedo[0].data()), Float4::Load(albedo[1].data()),
+                 Float4::Load(albedo[2].data())};
+  coat.emission = Float4::Load(emission.data());
+  return coat;
 }
 
-Eigen::Vector3f Shade(const Scene& scene,
-                      const SurfacePoint& point,
-                      const Eigen::Vector3f& p_world_viewer,
-                      const Lighting& lighting) {
-  if (point.part == Hit::kNone) return Eigen::Vector3f::Zero();
-  const Material& material = scene.parts()[point.part].material;
-  const Eigen::Vector3f to_viewer = (p_world_viewer - point.p_world).normalized();
-  const float up = 0.5F * (1.0F + point.normal.z());
-  Eigen::Vector3f diffuse =
-      lighting[kMaxLights] *
-      (scene.ambient_below() + up * (scene.ambient_above() - scene.ambient_below()));
-  Eigen::Vector3f highlight = Eigen::Vector3f::Zero();
+// Blinn's highlight of each point as a part of the arriving light. `alignment`: cosine between the
+// normal and the middle of the directions to lamp and viewer.
+Float4 Highlight(const Coat& coat, Float4 alignment) {
+  Lanes cosines;
+  alignment.Store(cosines.data());
+  Lanes strengths = {};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const Material* material = coat.materials[lane];
+    if (material == nullptr || material->specular <= 0) continue;
+    const float shininess = material->shininess;
+    if (cosines[lane] * shininess < shininess - 7.0F) continue;  // Below 0.1 %.
+    if (cosines[lane] <= 0) continue;
+    strengths[lane] = material->specular * std::pow(cosines[lane], shininess);
+  }
+  return Float4::Load(strengths.data());
+}
+
+}  // namespace
+
+Vector4 Shade(const Scene& scene,
+              const SurfacePoints& points,
+              std::size_t index,
+              const Eigen::Vector3f& p_world_viewer,
+              const Lighting& lighting) {
+  const Coat coat = CoatOf(scene, points, index);
+  const Vector4 p_world = points.p_world.At(index);
+  const Vector4 normal = points.normal.At(index);
+  const Vector4 to_viewer = Normalized(Broadcast(p_world_viewer) - p_world);
+  const Float4 up = Float4(0.5F) + Float4(0.5F) * normal.z;
+  const Vector4 below = Broadcast(scene.ambient_below());
+  Vector4 diffuse =
+      lighting[kMaxLights] * (below + up * (Broadcast(scene.ambient_above()) - below));
+  Vector4 highlight;
   for (std::size_t i = 0; i < scene.lights().size(); ++i) {
     const Light& light = scene.lights()[i];
-    const Eigen::Vector3f to_light = light.p_world - point.p_world;
-    const float squared_distance = to_light.squaredNorm();
-    const Eigen::Vector3f direction = to_light / std::sqrt(squared_distance);
-    const float facing = point.normal.dot(direction);
-    if (facing <= 0) continue;
-    const Eigen::Vector3f arriving =
-        light.intensity * (lighting[static_cast<int>(i)] * facing / squared_distance);
-    diffuse += arriving;
-    if (material.specular <= 0) continue;
-    const float alignment = std::max(0.0F, point.normal.dot((direction + to_viewer).normalized()));
-    if (alignment * material.shininess < material.shininess - 7.0F) continue;  // Below 0.1 %.
-    highlight += arriving * (material.specular * std::pow(alignment, material.shininess));
+    const Vector4 to_light = Broadcast(light.p_world) - p_world;
+    const Float4 squared_distance = Dot(to_light, to_light);
+    const Vector4 direction = Float4(1.0F) / Sqrt(squared_distance) * to_light;
+    const Float4 facing = Max(Dot(normal, direction), 0.0F);
+    const Vector4 arriving = lighting[i] * facing / squared_distance * Broadcast(light.intensity);
+    diffuse = diffuse + arriving;
+    if (!coat.has_highlights || LessBits(0.0F, facing) == 0) continue;
+    const Float4 alignment = Dot(normal, Normalized(direction + to_viewer));
+    highlight = highlight + Highlight(coat, alignment) * arriving;
   }
-  const Eigen::Vector3f albedo = Albedo(material, point);
-  return albedo.cwiseProduct(diffuse) + highlight + material.emission * albedo;
+  const auto color = [&](Float4 albedo, Float4 arriving, Float4 shine) {
+    return albedo * (arriving + coat.emission) + shine;
+  };
+  return {color(coat.albedo.x, diffuse.x, highlight.x),
+          color(coat.albedo.y, diffuse.y, highlight.y),
+          color(coat.albedo.z, diffuse.z, highlight.z)};
 }
 
 }  // namespace semslam

@@ -2,38 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 
 #include <Eigen/Core>
 
 #include "semslam/render/scene.h"
 
-#include "render/ray_scene.h"
+#include "render/lanes.h"
+#include "render/surface.h"
 
 namespace semslam {
 
-// A point where a line of sight meets the scene.
-struct SurfacePoint {
-  std::uint32_t part = Hit::kNone;  // Index into Scene::parts; kNone: nothing there.
-  Eigen::Vector3f p_world;
-  Eigen::Vector3f face_normal;  // Of the triangle, towards the viewer.
-  Eigen::Vector3f normal;       // For shading: interpolated, towards the viewer.
-  Eigen::Vector2f uv;           // Metres along the surface.
-  float footprint = 0;          // Width of the pixel's patch, metres.
-  float incidence = 0;          // Cosine between the line of sight and face_normal.
-};
+// How much light reaches four points: the visible part (0 to 1) of each lamp, then of the
+// surroundings.
+constexpr std::size_t kMaxLights = 3;
+using Lighting = std::array<Float4, kMaxLights + 1>;
 
-// How much light reaches a point: the visible part (0 to 1) of each lamp, then of the surroundings.
-constexpr int kMaxLights = 3;
-using Lighting = Eigen::Vector4f;
-
-// `pixel_angle`: radians a pixel covers.
-SurfacePoint LocateHit(const Scene& scene, const Hit& hit, const Ray& ray, float pixel_angle);
-
-// Light sent from the point to the viewer (linear BGR): Lambert's law plus Blinn's highlight.
-Eigen::Vector3f Shade(const Scene& scene,
-                      const SurfacePoint& point,
-                      const Eigen::Vector3f& p_world_viewer,
-                      const Lighting& lighting);
+// Light sent from the points `index` to `index` + 3 to the viewer (linear; x, y, z are B, G, R):
+// Lambert's law plus Blinn's highlight. 0 where there is no surface.
+Vector4 Shade(const Scene& scene,
+              const SurfacePoints& points,
+              std::size_t index,
+              const Eigen::Vector3f& p_world_viewer,
+              const Lighting& lighting);
 
 }  // namespace semslam

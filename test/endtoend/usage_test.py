@@ -5,7 +5,8 @@ import unittest
 
 from harness import CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
-PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory"]
+PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
+            "evaluate_segmentation"]
 OPTIONS = ["--output", "--network", "--detections", "--classes", "--score", "--no-semantics",
            "--sequential", "--realtime", "--help", "--version"]
 

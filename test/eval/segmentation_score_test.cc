@@ -45,5 +45,30 @@ TEST(SegmentationScore, NothingToCompareIsNoError) {
   EXPECT_EQ(ScoreSegmentation(Ids{1, 2}, Ids{0, 0}).num_points, 0U);
 }
 
+TEST(SegmentationScore, CountsWhatItCompared) {
+  const SegmentationScore score = ScoreSegmentation(Ids{1, 1, 0, 3, 5}, Ids{1, 1, 2, 2, 0});
+  EXPECT_EQ(score.num_points, 4U);
+  EXPECT_EQ(score.num_segments, 2U);
+  EXPECT_EQ(score.num_regions, 2U);
+  EXPECT_DOUBLE_EQ(score.coverage, 0.75);
+}
+
+// Region 1: four points, three of them in segment 7, which has one point of region 2.
+TEST(RegionScores, TellTheBestSegmentOfEachRegion) {
+  const std::vector<RegionScore> scores =
+      ScoreRegions(Ids{7, 7, 7, 0, 7, 0, 9}, Ids{1, 1, 1, 1, 2, 3, 0});
+  ASSERT_EQ(scores.size(), 3U);
+  EXPECT_EQ(scores[0].region, 1U);
+  EXPECT_EQ(scores[0].num_points, 4U);
+  EXPECT_EQ(scores[0].best_segment, 7U);
+  EXPECT_DOUBLE_EQ(scores[0].covered, 0.75);
+  EXPECT_DOUBLE_EQ(scores[0].foreign, 0.25);
+  EXPECT_EQ(scores[1].best_segment, 7U);
+  EXPECT_DOUBLE_EQ(scores[1].covered, 1.0);
+  EXPECT_DOUBLE_EQ(scores[1].foreign, 0.75);
+  EXPECT_EQ(scores[2].best_segment, 0U);
+  EXPECT_DOUBLE_EQ(scores[2].covered, 0.0);
+}
+
 }  // namespace
 }  // namespace semslam

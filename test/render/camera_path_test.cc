@@ -59,7 +59,7 @@ TEST(CameraPath, HasNoJumpsOfAcceleration) {
 }
 
 TEST(CameraPath, DeskIsSweptAtTheSpeedOfAHand) {
-  const StagedScene desk = MakeDeskScene(1);
+  const StagedScene desk = MakeScene("desk", 1);
   double fastest = 0;
   double fastest_turn = 0;
   for (int i = 1; i < 400; ++i) {

@@ -3,6 +3,7 @@
 #include "semslam/render/clip.h"
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -117,6 +118,84 @@ TEST(RenderedClip, NoisyDepthLiesOnTheSurfaceWithinTheNoiseModel) {
   EXPECT_GT(num_outside, 0);
 }
 
+// The nearest triangle that a ray from `origin` meets, found by trying all, in double precision.
+struct Nearest {
+  double distance = std::numeric_limits<double>::infinity();
+  int instance_id = 0;
+};
+
+Nearest NearestTriangle(const Scene& scene,
+                        const Eigen::Vector3d& origin,
+                        const Eigen::Vector3d& direction) {
+  Nearest nearest;
+  for (const ScenePart& part : scene.parts()) {
+    for (const Eigen::Vector3i& corners : part.mesh.triangles) {
+      // Moeller and Trumbore, 1997.
+      const Eigen::Vector3d a = part.mesh.positions[corners[0]].cast<double>();
+      const Eigen::Vector3d ab = part.mesh.positions[corners[1]].cast<double>() - a;
+      const Eigen::Vector3d ac = part.mesh.positions[corners[2]].cast<double>() - a;
+      const Eigen::Vector3d h = direction.cross(ac);
+      const double determinant = ab.dot(h);
+      if (std::abs(determinant) < 1e-18) continue;
+      const Eigen::Vector3d s = origin - a;
+      const double u = s.dot(h) / determinant;
+      if (u < 0 || u > 1) continue;
+      const Eigen::Vector3d q = s.cross(ab);
+      const double v = direction.dot(q) / determinant;
+      if (v < 0 || u + v > 1) continue;
+      const double distance = ac.dot(q) / determinant;
+      if (distance > 0 && distance < nearest.distance) nearest = {distance, part.instance_id};
+    }
+  }
+  return nearest;
+}
+
+TEST(RenderedClip, DepthAndLabelsAreThoseOfAnExhaustiveSearch) {
+  RenderedClip::Options options = testing::SmallDeskClipOptions(60);
+  const RenderedClip clip(options);
+  const RayTable rays(clip.camera());
+  const RenderedFrame frame = clip.Frame(25);
+  int num_wrong = 0;
+  int num_tried = 0;
+  for (int y = 3; y < 240; y += 19) {
+    for (int x = 5; x < 320; x += 13) {
+      const Eigen::Vector3d direction =
+          frame.T_world_camera.rotation * rays.Unproject(x, y, 1.0F).cast<double>();
+      const Nearest expected =
+          NearestTriangle(clip.scene(), frame.T_world_camera.translation, direction);
+      const bool is_right =
+          std::abs(frame.ideal.depth.at<double>(y, x) - expected.distance) < 1e-4 &&
+          frame.ideal.labels.at<std::uint16_t>(y, x) == expected.instance_id;
+      num_wrong += is_right ? 0 : 1;
+      ++num_tried;
+    }
+  }
+  EXPECT_GT(num_tried, 300);
+  EXPECT_LE(num_wrong, 1);  // A ray within a rounding error of an edge may go either way.
+}
+
+TEST(RenderedClip, CoveredFramesAreDarkNoiseWithoutDepth) {
+  RenderedClip::Options options = testing::SmallDeskClipOptions(6);
+  const RenderedClip open(options);
+  options.covered = {.from_s = 2 / 30.0 - 1e-3, .to_s = 4 / 30.0 - 1e-3};
+  const RenderedClip covered(options);
+  for (std::size_t i = 0; i < 6; ++i) {
+    SCOPED_TRACE(i);
+    const RenderedFrame frame = covered.Frame(i);
+    if (i == 2 || i == 3) {
+      EXPECT_TRUE(covered.IsCovered(i));
+      EXPECT_EQ(cv::countNonZero(frame.depth_16u), 0);
+      EXPECT_GT(cv::countNonZero(frame.color.reshape(1)), 1000);
+      double largest = 0;
+      cv::minMaxLoc(frame.color.reshape(1), nullptr, &largest);
+      EXPECT_LT(largest, 8);  // Five standard deviations.
+      EXPECT_TRUE(SameBytes(frame.ideal.labels, open.Frame(i).ideal.labels));
+    } else {
+      EXPECT_TRUE(SameFrame(frame, open.Frame(i)));
+    }
+  }
+}
+
 TEST(RenderedClip, CleanFramesSeeTheSamePointInTheSameColour) {
   // A point seen in frame 0 is looked up in frame 6 by pose and depth alone.
   const RenderedClip clip(CleanDeskClipOptions(8));
@@ -168,8 +247,9 @@ TEST(RenderedClip, ASmallFrameSeesWhatTheLargeOneSees) {
 }
 
 TEST(RenderedClip, UnknownNamesAreErrorsThatListTheKnown) {
-  EXPECT_EQ(InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
-            "scene moon: unknown, expected one of desk, wall");
+  EXPECT_EQ(
+      InputErrorOf([] { RenderedClip({.scene = "moon"}); }),
+      "scene moon: unknown, expected one of desk, random, room, structure, wall or a .yaml file");
   EXPECT_EQ(InputErrorOf([] { CameraByName("Leica"); }),
             "camera Leica: unknown, expected one of TUM1, TUM3, Xtion");
 }
@@ -178,6 +258,9 @@ TEST(RenderedClip, ImpossibleOptionsAreErrors) {
   EXPECT_EQ(InputErrorOf([] { RenderedClip({.num_frames = 0}); }),
             "frames: expected at least 1, found 0");
   EXPECT_NE(InputErrorOf([] { RenderedClip({.fps = -1}); }).find("fps"), std::string::npos);
+  RenderedClip::Options backwards;
+  backwards.covered = {.from_s = 2, .to_s = 1};
+  EXPECT_NE(InputErrorOf([&] { RenderedClip{backwards}; }).find("covered"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "semslam/render/clip_writer.h"
 
 #include <sstream>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -97,6 +98,30 @@ TEST_F(ClipWriterTest, DetectionsNameClassesOfTheirList) {
   }
   EXPECT_TRUE(lines.eof());
   EXPECT_GE(num_lines, 3);
+}
+
+TEST_F(ClipWriterTest, AnEarlierClipIsReplaced) {
+  const RenderedClip shorter(testing::SmallDeskClipOptions(1));
+  WriteClip(shorter, folder_.path(), {});
+  EXPECT_EQ(ReadTrajectory(folder_.path() / "groundtruth.txt").size(), 1U);
+  EXPECT_FALSE(exists(folder_.path() / "rgb" / (FormatTime(clip_.Time(1)) + ".png")));
+}
+
+TEST_F(ClipWriterTest, AnInterruptedClipHasNoLists) {
+  const auto interrupt = [](std::size_t) { throw std::runtime_error("enough"); };
+  const RenderedClip clip(testing::SmallDeskClipOptions(1));
+  EXPECT_THROW(WriteClip(clip, folder_.path(), {}, interrupt), std::runtime_error);
+  for (const char* name : {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt"})
+    EXPECT_FALSE(exists(folder_.path() / name)) << name;
+}
+
+TEST(ClipWriter, AFolderWithOtherFilesIsRefusedAndLeftAlone) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("rgb.txt", "somebody's recording");
+  const RenderedClip clip(testing::SmallDeskClipOptions(1));
+  EXPECT_NE(InputErrorOf([&] { WriteClip(clip, folder.path(), {}); }).find("other files"),
+            std::string::npos);
+  EXPECT_EQ(ReadAll(file), "somebody's recording");
 }
 
 TEST(ClipWriter, AFolderThatCannotBeMadeIsAnError) {

@@ -102,6 +102,29 @@ TEST(Renderer, NothingIsZero) {
   EXPECT_EQ(cv::countNonZero(image.labels), 0);
 }
 
+TEST(Renderer, PicturesOfAnyWidthAreThoseOfTheWideOne) {
+  PinholeCamera::Parameters parameters = CameraByName("TUM3");
+  parameters.width = 96;
+  parameters.height = 20;
+  parameters.cx = 40;
+  parameters.cy = 10;
+  const Scene scene = WallAndBall();
+  const Renderer::Options plain = {.smooth_edges = false, .shadows = false, .occlusion_reach = 0};
+  const Renderer renderer(scene, plain);
+  const Rigid3 T_world_camera = LookingAhead({-0.32, 0, 0.1});  // The ball's rim is in the picture.
+  const IdealImage wide = renderer.Render(RayTable(PinholeCamera(parameters)), T_world_camera);
+  for (const int width : {61, 62, 63, 64}) {
+    parameters.width = width;
+    const IdealImage image = renderer.Render(RayTable(PinholeCamera(parameters)), T_world_camera);
+    const cv::Rect part(0, 0, width, 20);
+    EXPECT_EQ(cv::norm(image.depth, wide.depth(part), cv::NORM_INF), 0) << width;
+    EXPECT_EQ(cv::norm(image.labels, wide.labels(part), cv::NORM_INF), 0) << width;
+    EXPECT_LT(cv::norm(image.radiance, wide.radiance(part), cv::NORM_INF), 1e-4) << width;
+  }
+  EXPECT_GT(cv::countNonZero(wide.labels == 1), 50);
+  EXPECT_GT(cv::countNonZero(wide.labels == 2), 50);
+}
+
 TEST(Renderer, WhatABallHidesFromTheLampIsDark) {
   Scene scene;
   scene.Add(MakeObject(MakeRectangle(4, 4)), {});

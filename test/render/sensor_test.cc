@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/render/sensor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
@@ -95,6 +97,31 @@ TEST(DepthSensor, NoiseOfTwoFramesIsIndependent) {
   EXPECT_NEAR(deviation[0], std::sqrt(2.0) * single, 0.02 * single);
 }
 
+TEST(DepthSensor, DepthComesInStepsOfDisparity) {
+  DepthSensorOptions options = DepthSensorOptions::Clean();
+  options.disparity_step_px = 0.125;
+  IdealImage ideal = Wall(1.0);
+  for (int x = 0; x < kSize.width; ++x) ideal.depth.col(x).setTo(0.95 + 0.1 * x / kSize.width);
+  const cv::Mat depth = DepthOf(ideal, options);
+  std::set<int> values;
+  for (int x = 0; x < kSize.width; ++x) values.insert(depth.at<std::uint16_t>(0, x));
+  // Disparity runs from 43.5 / 0.95 to 43.5 / 1.05 px: 34.9 steps.
+  EXPECT_NEAR(static_cast<double>(values.size()), 35.5, 1.0);
+  for (const int value : values) {
+    const double steps = options.focal_px * options.baseline_m / (value / kDepthFactor) / 0.125;
+    EXPECT_NEAR(steps, std::round(steps), 0.04);  // Rounding to 0.2 mm is 0.035 of a step.
+  }
+}
+
+TEST(DepthSensor, HolesBesideAJumpAreAsFrequentAsSaid) {
+  DepthSensorOptions options = DepthSensorOptions::Clean();
+  options.hole_rate = 0.3;
+  const cv::Mat depth = DepthOf(Step(1.0, 2.0), options);
+  const double num_missing = kSize.height * 2 - cv::countNonZero(depth.colRange(319, 321));
+  EXPECT_NEAR(num_missing / (kSize.height * 2), 0.3, 0.06);  // Four standard deviations.
+  EXPECT_EQ(cv::countNonZero(depth), kSize.area() - static_cast<int>(num_missing));
+}
+
 TEST(DepthSensor, OutOfRangeIsMissing) {
   EXPECT_EQ(cv::countNonZero(DepthOf(Wall(0.4), {})), 0);
   EXPECT_EQ(cv::countNonZero(DepthOf(Wall(4.8), {})), 0);
@@ -179,6 +206,52 @@ TEST(ColorSensor, TurningSmearsAnEdgeOverTheExposure) {
     num_between += level > 0 && level < 255 ? 1 : 0;
   }
   EXPECT_NEAR(num_between, 2 * kHalfAngle * CameraByName("TUM3").fx, 1.5);
+}
+
+// Width of the ramp that an edge becomes, from its steepness.
+double RampWidth(const cv::Mat& color) {
+  double light_sum = 0;
+  for (int x = 280; x < 360; ++x) {
+    const double level = color.at<cv::Vec3b>(240, x)[0] / 255.0;
+    light_sum += level * level * (1 - level * level);  // Light is the square of the level.
+  }
+  return 6 * light_sum;  // The integral of t (1 - t) over a ramp is a sixth of its width.
+}
+
+TEST(ColorSensor, MovingSidewaysSmearsByVelocityTimesExposureOverDepth) {
+  constexpr double kDepth = 1.5;
+  constexpr double kVelocity = 1.2;  // m/s, to the right.
+  constexpr double kExposure = 0.02;
+  IdealImage ideal = Wall(kDepth, 0.0F);
+  ideal.radiance.colRange(320, 640).setTo(cv::Scalar::all(1.0));
+  ColorSensorOptions options = ColorSensorOptions::Clean();
+  options.exposure_s = kExposure;
+  FrameMotion motion;
+  motion.T_world_camera_open.translation.x() = -0.5 * kVelocity * kExposure;
+  motion.T_world_camera_close.translation.x() = 0.5 * kVelocity * kExposure;
+  const double expected = CameraByName("TUM3").fx * kVelocity * kExposure / kDepth;  // 8.6 px
+  EXPECT_NEAR(RampWidth(ColorOf(ideal, options, motion)), expected, 0.4);
+}
+
+TEST(ColorSensor, ExposureChangesSlowlyAndWithinItsLimit) {
+  ColorSensorOptions options = ColorSensorOptions::Clean();
+  options.gain_drift = 0.06;
+  double smallest = 10;
+  double largest = 0;
+  double before = 0;
+  for (int frame = 0; frame < 300; frame += 10) {
+    const FrameMotion motion = {.seed = 5, .time_s = frame / 30.0};
+    const double level = ColorOf(Wall(2.0, 0.25F), options, motion).at<cv::Vec3b>(0, 0)[0];
+    const double gain = level * level / (255.0 * 255.0) / 0.25;
+    smallest = std::min(smallest, gain);
+    largest = std::max(largest, gain);
+    if (frame > 0) {
+      EXPECT_LT(std::abs(gain - before), 0.04) << frame;
+    }
+    before = gain;
+  }
+  EXPECT_LT(largest - smallest, 0.13);  // 2 * 0.06 and rounding to whole levels.
+  EXPECT_GT(largest - smallest, 0.06);
 }
 
 TEST(SensorOptions, ImpossibleOnesAreRefused) {

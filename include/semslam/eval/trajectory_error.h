@@ -24,6 +24,9 @@ struct TrajectoryError {
   // Absolute trajectory error: distances of the positions after the best rigid alignment.
   Distances absolute;
   Rigid3 T_truth_estimate;  // That alignment.
+  // The best alignment of positions and orientations, as points 1 m from the cameras feel them: to
+  // carry a map over. A short path alone leaves it open by more than a map's errors.
+  Rigid3 T_truth_estimate_map;
 
   // Relative pose error: of the motion over the interval; zero pairs if the trajectory is shorter.
   int num_relative_pairs = 0;

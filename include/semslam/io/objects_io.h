@@ -39,4 +39,12 @@ void WriteObjects(const std::filesystem::path& path,
                   const std::vector<ClassRecord>& classes,
                   const std::vector<ObjectRecord>& objects);
 
+struct ObjectsFile {
+  std::vector<ClassRecord> classes;
+  std::vector<ObjectRecord> objects;
+};
+
+// Reads what WriteObjects wrote. Throws InputError that names file and field.
+ObjectsFile ReadObjects(const std::filesystem::path& path);
+
 }  // namespace semslam

@@ -29,14 +29,17 @@ class CameraPath {
     std::uint64_t seed = 1;     // Of the sways.
   };
 
-  // At least four waypoints, none of them looking straight up or down.
+  // At least two waypoints, none of them looking straight up or down.
   CameraPath(std::vector<Waypoint> waypoints, const Options& options);
 
   // T_world_camera at a time in seconds since the start; for times before it, the start's.
   Rigid3 At(double seconds) const;
+  // The same without the sways.
+  Waypoint ViewAt(double seconds) const;
+  // Seconds from the first waypoint to the last, or around if it is closed.
+  double duration() const;
 
  private:
-  Waypoint SplineAt(double seconds) const;
   // One of six independent sways, with an amplitude of about 1.
   double SwayAt(int channel, double seconds) const;
 

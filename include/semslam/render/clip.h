@@ -37,7 +37,7 @@ struct RenderedFrame {
 class RenderedClip : public FrameSource {
  public:
   struct Options {
-    std::string scene = "desk";  // One of SceneNames().
+    std::string scene = "desk";  // One of SceneNames(), or the path of a scene file.
     std::uint64_t seed = 1;      // Of the scene, the path and all noise.
     int num_frames = 150;
     double fps = 30;  // Frames a second.
@@ -45,8 +45,16 @@ class RenderedClip : public FrameSource {
     double depth_factor = 5000;  // Depth image units a metre.
     ColorSensorOptions color = {};
     DepthSensorOptions depth = {};
-    Renderer::Options rendering = {};  // Its num_threads is not used: the one below counts.
-    int num_threads = 0;               // As ParallelFor.
+    // While the lens is covered the picture is black but for its noise, and depth is empty. The
+    // truth (pose, ideal image) stays what an open lens would see. Seconds since the start; the end
+    // is not covered.
+    struct Interval {
+      double from_s = 0;
+      double to_s = 0;
+    };
+    std::optional<Interval> covered = {};
+    Renderer::Options rendering = {};
+    int num_threads = 0;  // As ParallelFor.
     // Turns noise, blur, holes and range limits off; lens distortion stays.
     void MakeClean();
     // Throws InputError for what a user can say, std::invalid_argument for the sensors.
@@ -59,9 +67,12 @@ class RenderedClip : public FrameSource {
   std::optional<std::size_t> NumFrames() const override { return num_frames(); }
 
   // Frames are numbered from 0.
-  RenderedFrame Frame(std::size_t index) const;
+  RenderedFrame Frame(std::size_t index) const { return Frame(index, options_.num_threads); }
+  // On so many threads; it is the same frame.
+  RenderedFrame Frame(std::size_t index, int num_threads) const;
   RgbdImage Image(std::size_t index) const;
   TimeNs Time(std::size_t index) const;
+  bool IsCovered(std::size_t index) const;
   Rigid3 T_world_camera(std::size_t index) const;
 
   std::size_t num_frames() const { return static_cast<std::size_t>(options_.num_frames); }

@@ -39,9 +39,13 @@ std::vector<TrueDetection> DetectFromLabels(const cv::Mat& labels,
 //   settings.yaml     the camera and the stock ORB-SLAM2 keys
 //   labels/*.png      16 bit: id of the instance in each pixel
 //   instances.json    id, class and oriented box (world) of each instance
+//   surface.pcd       exact points of the surface that was seen, 5 mm apart: position, normal, and
+//                     the instance's id as label
 //   detections/*.txt  `class_index cx cy w h score` a line, relative to the picture; classes.names
-// `progress` is called after every few frames with the number of frames written. Throws InputError
-// if something cannot be written.
+// The lists are written last: a folder without them is unfinished. An earlier clip in the folder is
+// replaced; a folder that holds something else is refused. `progress` is called after every few
+// frames with the number of frames written; what it throws ends the writing. Throws InputError if
+// something cannot be written.
 void WriteClip(const RenderedClip& clip,
                const std::filesystem::path& folder,
                const DetectionOptions& detections,

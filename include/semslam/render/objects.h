@@ -36,12 +36,55 @@ Object MakePenHolder(std::uint64_t seed);
 // Class "paper": a printed sheet.
 Object MakePaper(std::uint64_t seed);
 
+// Class "bottle": with a label and a cap.
+Object MakeBottle(std::uint64_t seed);
+// Class "notebook": a pad with a wire binding on its left.
+Object MakeNotebook(std::uint64_t seed);
+// Class "laptop": open, with keys and a screen that glows.
+Object MakeLaptop(std::uint64_t seed);
+// Class "cell phone": lies on its back.
+Object MakePhone(std::uint64_t seed);
+// Class "binder": a folder for paper, upright, spine towards -y.
+Object MakeBinder(std::uint64_t seed);
+// Class "lamp": with a foot and a bent arm.
+Object MakeDeskLamp(std::uint64_t seed);
+// Class "power strip": sockets, plugs, and cables that run to +y.
+Object MakePowerStrip(std::uint64_t seed);
+// Class "printer"
+Object MakePrinter(std::uint64_t seed);
+// Class "pottedplant"
+Object MakePlant(float height, std::uint64_t seed);
+
 // Class "desk": the top's upper face is at z = size.z.
 Object MakeDesk(const Eigen::Vector3f& size, std::uint64_t seed);
-// Class "poster": hangs on a wall behind it, centred on its frame's origin.
+// Class "chair": an office chair on castors, its back towards +y.
+Object MakeChair(std::uint64_t seed);
+// Class "sofa": its back towards +y; seats, arm rests, pillows.
+Object MakeSofa(const Eigen::Vector3f& size, std::uint64_t seed);
+// Class "shelf": a case of boards, each of which things can stand on, the lowest first.
+Object MakeBookshelf(const Eigen::Vector3f& size, std::uint64_t seed);
+// Class "cabinet": with doors or drawers.
+Object MakeCabinet(const Eigen::Vector3f& size, std::uint64_t seed);
+// Class "rug"
+Object MakeRug(float width, float depth, std::uint64_t seed);
+// Class "waste bin": hollow, with paper in it.
+Object MakeBin(std::uint64_t seed);
+
+// What hangs on a wall behind it, centred on its frame's origin: "poster"; "picture", framed;
+// "whiteboard", written on, with pens on its ledge; "clock".
 Object MakePoster(float width, float height, std::uint64_t seed);
+Object MakePicture(float width, float height, std::uint64_t seed);
+Object MakeWhiteboard(float width, float height, std::uint64_t seed);
+Object MakeClock(std::uint64_t seed);
 // Class "shelf": a board on a wall behind it; its upper face is at z = 0.
 Object MakeShelf(float width, float depth, std::uint64_t seed);
+
+// At a wall behind them, standing on z = 0: "window" (z = 0 is the top of its sill; daylight and a
+// view behind it), "door", "radiator".
+Object MakeWindow(float width, float height, std::uint64_t seed);
+Object MakeDoor(float width, float height, std::uint64_t seed);
+Object MakeRadiator(float width, float height, std::uint64_t seed);
+
 // Class "floor": looks up, centred.
 Object MakeFloor(float width, float depth, std::uint64_t seed);
 // Class "wall": looks along -y, stands on z = 0.

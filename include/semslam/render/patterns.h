@@ -29,6 +29,39 @@ cv::Mat DrawCarpet(cv::Size size, const Eigen::Vector3f& color, std::uint64_t se
 // * Short fur: strokes of many directions.
 cv::Mat DrawFur(cv::Size size, const Eigen::Vector3f& color, std::uint64_t seed);
 
+// * Bricks in courses (1 m by 1 m: 4 by 12 of them), with joints. `contrast`: between bricks.
+cv::Mat DrawBricks(cv::Size size,
+                   const Eigen::Vector3f& color,
+                   const Eigen::Vector3f& joint,
+                   float contrast,
+                   std::uint64_t seed);
+// * 4 by 4 square tiles of stone.
+cv::Mat DrawTiles(cv::Size size,
+                  const Eigen::Vector3f& color,
+                  const Eigen::Vector3f& joint,
+                  float contrast,
+                  std::uint64_t seed);
+// * Woven cloth with some threads of a second colour.
+cv::Mat DrawFabric(cv::Size size,
+                   const Eigen::Vector3f& color,
+                   const Eigen::Vector3f& second,
+                   float contrast,
+                   std::uint64_t seed);
+// A woven rug with borders.
+cv::Mat DrawRug(cv::Size size,
+                const Eigen::Vector3f& color,
+                const Eigen::Vector3f& second,
+                std::uint64_t seed);
+
+// What is before a window: sky, trees, houses.
+cv::Mat DrawOutdoors(cv::Size size, std::uint64_t seed);
+// A whiteboard somebody has written on.
+cv::Mat DrawWhiteboard(cv::Size size, std::uint64_t seed);
+// A clock's face, as large as the picture.
+cv::Mat DrawClock(cv::Size size, std::uint64_t seed);
+// A label with a brand and small print; repeats along the width.
+cv::Mat DrawLabel(cv::Size size, const Eigen::Vector3f& color, std::uint64_t seed);
+
 // A sheet of paper with a heading, lines of text, and now and then a diagram.
 cv::Mat DrawPage(cv::Size size, std::uint64_t seed);
 // A poster: coloured ground, title, shapes, text.

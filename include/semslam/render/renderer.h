@@ -26,7 +26,6 @@ struct IdealImage {
 class Renderer {
  public:
   struct Options {
-    int num_threads = 0;            // As ParallelFor.
     bool smooth_edges = true;       // Four rays more for colour in pixels that an edge crosses.
     bool shadows = true;            // Else every lamp reaches everything.
     double occlusion_reach = 0.25;  // Corners this near (m) darken a surface; 0 turns it off.
@@ -39,7 +38,8 @@ class Renderer {
   ~Renderer();
 
   // `rays`: of the camera; making them takes longer than using them, so they are made once.
-  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera) const;
+  // `num_threads`: as ParallelFor.
+  IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera, int num_threads = 0) const;
 
  private:
   class Impl;

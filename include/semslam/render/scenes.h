@@ -7,28 +7,17 @@
 #include <vector>
 
 #include "semslam/camera/pinhole_camera.h"
-#include "semslam/render/camera_path.h"
-#include "semslam/render/scene.h"
+#include "semslam/render/scene_file.h"
 
 namespace semslam {
 
-// A scene and the way a camera goes through it.
-struct StagedScene {
-  Scene scene;
-  CameraPath path;
-};
-
-// A desk at a wall with the objects of objects.h, and a camera that sweeps before it at 0.8 to 1.6
-// m. The seed moves the objects and the camera, and picks colours and prints.
-StagedScene MakeDeskScene(std::uint64_t seed);
-
-// Nothing but a wall full of posters and sheets, which the camera passes at about 1.2 m.
-StagedScene MakeWallScene(std::uint64_t seed);
-
-// The scenes that MakeScene knows.
+// The scenes that come with the library: the files of config/scenes, built in.
 std::vector<std::string> SceneNames();
-// Throws InputError if there is no such scene.
-StagedScene MakeScene(const std::string& name, std::uint64_t seed);
+// The text of its file. Throws InputError if there is no such scene.
+std::string SceneText(const std::string& name);
+// One of SceneNames(), or the path of a scene file (docs/scene-files.md). Painted, on `num_threads`
+// as ParallelFor. Throws InputError if there is no such scene, or the file is wrong.
+StagedScene MakeScene(const std::string& name_or_path, std::uint64_t seed, int num_threads = 0);
 
 // The cameras of the TUM RGB-D benchmark's freiburg1 (with lens distortion) and freiburg3
 // sequences, and an uncalibrated Xtion: TUM1, TUM3, Xtion. Throws InputError if there is no such
