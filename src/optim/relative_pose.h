@@ -39,8 +39,8 @@ inline Eigen::Matrix3d InverseRightJacobian(const Eigen::Vector3d& a) {
 
 inline Vector6d RelativePoseResidual(const Rigid3& T_world_i,
                                      const Rigid3& T_world_j,
-                                     const Rigid3& measured_T_i_j) {
-  return LocalDifference(measured_T_i_j, T_world_i.Inverse() * T_world_j);
+                                     const Rigid3& T_i_j_measured) {
+  return LocalDifference(T_i_j_measured, T_world_i.Inverse() * T_world_j);
 }
 
 struct RelativePoseTerm {
@@ -51,16 +51,16 @@ struct RelativePoseTerm {
 
 inline RelativePoseTerm LinearizeRelativePose(const Rigid3& T_world_i,
                                               const Rigid3& T_world_j,
-                                              const Rigid3& measured_T_i_j) {
+                                              const Rigid3& T_i_j_measured) {
   const Rigid3 T_i_j = T_world_i.Inverse() * T_world_j;
   RelativePoseTerm term;
-  term.residual = LocalDifference(measured_T_i_j, T_i_j);
-  const Eigen::Matrix3d R = T_i_j.rotation.toRotationMatrix();
-  const Eigen::Matrix3d R_m_inverse = measured_T_i_j.rotation.toRotationMatrix().transpose();
-  const Eigen::Matrix3d J = InverseRightJacobian(term.residual.head<3>());
-  term.jacobian_i << -J * R.transpose(), Eigen::Matrix3d::Zero(),
+  term.residual = LocalDifference(T_i_j_measured, T_i_j);
+  const Eigen::Matrix3d R_i_j = T_i_j.rotation.toRotationMatrix();
+  const Eigen::Matrix3d R_m_inverse = T_i_j_measured.rotation.toRotationMatrix().transpose();
+  const Eigen::Matrix3d J_r = InverseRightJacobian(term.residual.head<3>());
+  term.jacobian_i << -J_r * R_i_j.transpose(), Eigen::Matrix3d::Zero(),
       R_m_inverse * Skew(T_i_j.translation), -R_m_inverse;
-  term.jacobian_j << J, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), R_m_inverse * R;
+  term.jacobian_j << J_r, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), R_m_inverse * R_i_j;
   return term;
 }
 
