@@ -74,6 +74,9 @@ void PrintSummary(const RunStatistics& run,
               Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
   std::printf("keyframes             %zu\n", status.num_keyframes);
   std::printf("landmarks             %zu\n", status.num_landmarks);
+  std::printf("loops closed          %zu\n", status.num_loops);
+  if (status.num_relocalizations > 0)
+    std::printf("place found again     %zu times after a loss\n", status.num_relocalizations);
   std::printf("map points            %zu, %.1f ms a keyframe\n", map.cloud.size(),
               map.integration_milliseconds);
   std::printf("segments              %zu, in %.0f ms\n", map.segmentation.segments.size(),

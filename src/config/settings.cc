@@ -44,6 +44,11 @@ void ReadOrb(SettingsFile& file, OrbExtractor::Options& orb) {
   orb.scale_factor = static_cast<float>(scale_factor);
 }
 
+void ReadLoopClosing(SettingsFile& file, LoopSettings& loop) {
+  file.Read("LoopClosing.enabled", &loop.enabled);
+  file.Read("LoopClosing.finalBundleAdjustment", &loop.final_bundle);
+}
+
 void ReadPointCloudMapping(SettingsFile& file, Settings& settings) {
   DepthFilterOptions& depth = settings.cloud.depth;
   file.Read("PointCloudMapping.minDepth", &depth.min_depth, Range::Positive());
@@ -107,6 +112,7 @@ Settings LoadSettings(const std::filesystem::path& path) {
   Settings settings;
   ReadCamera(file, settings);
   ReadOrb(file, settings.orb);
+  ReadLoopClosing(file, settings.loop);
   ReadPointCloudMapping(file, settings);
   ReadSegmentation(file, settings.segmentation);
   ReadSemanticMap(file, settings.fusion);

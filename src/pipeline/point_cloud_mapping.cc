@@ -33,29 +33,36 @@ PointCloudMapping::PointCloudMapping(Threading threading,
 }
 
 bool PointCloudMapping::InsertKeyframe(KeyframeId keyframe, RgbdImagePtr image) {
-  return stage_.Submit(KeyframeJob{keyframe, std::move(image)});
+  return stage_.Submit(
+      {.kind = Job::Kind::kKeyframe, .keyframe = keyframe, .image = std::move(image)});
 }
 
 bool PointCloudMapping::InsertDetections(KeyframeId keyframe, std::vector<Detection> detections) {
-  return stage_.Submit(DetectionsJob{keyframe, std::move(detections)});
+  return stage_.Submit(
+      {.kind = Job::Kind::kDetections, .keyframe = keyframe, .detections = std::move(detections)});
 }
 
+void PointCloudMapping::FollowCorrection() { stage_.TrySubmit({.kind = Job::Kind::kCorrection}); }
+
 void PointCloudMapping::Process(Job job) {
-  if (auto* keyframe = std::get_if<KeyframeJob>(&job)) {
-    Integrate(*keyframe);
-  } else {
-    auto& labelled = std::get<DetectionsJob>(job);
-    detections_[labelled.keyframe] = std::move(labelled.detections);
+  switch (job.kind) {
+    case Job::Kind::kKeyframe:
+      return Integrate(job.keyframe, *job.image);
+    case Job::Kind::kDetections:
+      detections_[job.keyframe] = std::move(job.detections);
+      return;
+    case Job::Kind::kCorrection:
+      return FollowPoses(options_.voxels.max_shift);
   }
 }
 
-void PointCloudMapping::Integrate(const KeyframeJob& job) {
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_({job.keyframe});
+void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
+  const std::map<KeyframeId, Rigid3> poses = pose_lookup_({keyframe});
   if (poses.empty()) return;  // The map was cleared since.
   const Stopwatch stopwatch;
-  auto cloud = BuildKeyframeCloud(job.keyframe, *job.image, rays_, options_.cloud);
+  auto cloud = BuildKeyframeCloud(keyframe, image, rays_, options_.cloud);
   voxel_map_.Integrate(cloud, poses.begin()->second);
-  clouds_[job.keyframe] = std::move(cloud);
+  clouds_[keyframe] = std::move(cloud);
   FollowPoses(options_.voxels.max_shift);
   integration_seconds_ += stopwatch.Seconds();
   ++num_integrated_;

@@ -5,16 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/mapping/full_bundle.h"
 
 namespace semslam {
 namespace {
 
 // More than the keyframe policy ever lets wait, so that tracking never does.
 constexpr std::size_t kMappingQueueCapacity = 16;
+// Loop closing is faster than keyframes come, but while it closes one.
+constexpr std::size_t kLoopQueueCapacity = 64;
 
 Tracking::Options TrackingOptions(const Settings& settings) {
   Tracking::Options options = settings.tracking;
@@ -44,12 +49,16 @@ System::System(const Settings& settings,
                const std::shared_ptr<const Vocabulary>& vocabulary,
                Options options)
     : log_(std::move(options.log)),
+      stereo_(MakeStereoCamera(PinholeCamera(settings.camera), settings.bf)),
+      loop_settings_(settings.loop),
       frame_builder_(settings.orb, PinholeCamera(settings.camera), settings.bf),
       map_(ScaleSpace{settings.orb.scale_factor, settings.orb.num_levels}),
       tracking_(
           TrackingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
       local_mapping_(
           MappingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
+      loop_closing_(
+          settings.loop.closing, PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
       point_cloud_mapping_(options.threading,
                            PointCloudOptions(settings),
                            PinholeCamera(settings.camera),
@@ -63,16 +72,27 @@ System::System(const Settings& settings,
                             point_cloud_mapping_.InsertDetections(keyframe, std::move(detections));
                           })
                     : nullptr),
+      // One job waits at most: it takes the map as it is when it begins.
+      full_bundle_stage_(
+          {.threading = options.threading, .queue_capacity = 1, .is_background = true},
+          [this](FullBundleJob) { AdjustAll(); }),
+      loop_stage_({.threading = options.threading, .queue_capacity = kLoopQueueCapacity},
+                  [this](KeyframeId keyframe) { CloseLoop(keyframe); }),
       mapping_stage_({.threading = options.threading, .queue_capacity = kMappingQueueCapacity},
                      [this](const KeyframeJob& job) { MapKeyframe(job); }) {}
 
 System::~System() {
   mapping_stage_.Cancel();
+  loop_stage_.Cancel();
+  break_off_.request_stop();
+  full_bundle_stage_.Cancel();
   if (detector_) detector_->Cancel();
 }
 
 Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   SEMSLAM_CHECK(image != nullptr);
+  RethrowFailures();
+  LogNewLoops();
   if (last_time_ && image->time <= *last_time_) return Skipped(*image);
   auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
   const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
@@ -80,6 +100,7 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   last_time_ = image->time;
   last_state_ = result.state;
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
+  if (result.relocalized) events_.Write([](Events& e) { ++e.num_relocalizations; });
   if (result.state == TrackingState::kTracking) {
     trajectory_.Write([&](std::vector<TrajectoryEntry>& entries) {
       if (result.map_was_reset) entries.clear();
@@ -106,12 +127,55 @@ void System::MapKeyframe(const KeyframeJob& job) {
   const auto newer_waits = [this] { return mapping_stage_.queue_size() > 0; };
   const LocalMapping::Report report = local_mapping_.Process(job.keyframe, newer_waits);
   if (report.is_void) return;
+  if (loop_settings_.enabled) loop_stage_.Submit(job.keyframe);
   point_cloud_mapping_.InsertKeyframe(job.keyframe, job.image);
   if (detector_) detector_->Submit(job.keyframe, job.image);
 }
 
+void System::CloseLoop(KeyframeId keyframe) {
+  const std::optional<LoopClosing::Loop> loop = loop_closing_.Process(keyframe);
+  if (!loop) return;
+  events_.Write([&](Events& e) { e.loops.push_back(*loop); });
+  point_cloud_mapping_.FollowCorrection();
+  full_bundle_stage_.TrySubmit({});
+}
+
+// A loop that is closed meanwhile begins a new epoch of the map, which ends this one without a
+// result.
+void System::AdjustAll() {
+  BundleOptions options = loop_settings_.bundle;
+  options.should_stop = [token = break_off_.get_token()] { return token.stop_requested(); };
+  if (!AdjustWholeMap(map_, stereo_, options).finished) return;
+  events_.Write([](Events& e) { ++e.num_full_bundles; });
+  point_cloud_mapping_.FollowCorrection();
+}
+
+void System::RethrowFailures() {
+  if (loop_stage_.failed()) loop_stage_.Finish();
+  if (full_bundle_stage_.failed()) full_bundle_stage_.Finish();
+}
+
+void System::LogNewLoops() {
+  const std::vector<LoopClosing::Loop> loops =
+      events_.Read([](const Events& e) { return e.loops; });
+  for (; num_loops_logged_ < loops.size(); ++num_loops_logged_) {
+    const LoopClosing::Loop& loop = loops[num_loops_logged_];
+    std::ostringstream text;
+    text << "loop closed: keyframe " << loop.keyframe.value << " is at keyframe "
+         << loop.place.value << ", was off by " << std::fixed << std::setprecision(3)
+         << loop.distance << " m; " << loop.num_matches << " matches, " << loop.num_fused
+         << " landmarks fused";
+    Log(LogLevel::kInfo, text.str());
+  }
+}
+
 PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   mapping_stage_.Finish();
+  loop_stage_.Finish();
+  if (pending == PendingLabels::kDrop) break_off_.request_stop();
+  full_bundle_stage_.Finish();
+  if (loop_settings_.final_bundle) AdjustAll();
+  LogNewLoops();
   if (detector_) {
     pending == PendingLabels::kDrop ? detector_->Cancel() : detector_->Finish();
   }
@@ -158,8 +222,14 @@ System::Status System::status() const {
     status.num_keyframes = map.num_keyframes();
     status.num_landmarks = map.num_landmarks();
   });
+  events_.Read([&](const Events& e) {
+    status.num_relocalizations = e.num_relocalizations;
+    status.num_loops = e.loops.size();
+    status.num_full_bundles = e.num_full_bundles;
+  });
   status.num_voxels = point_cloud_mapping_.num_voxels();
   status.mapping_queue = mapping_stage_.queue_size();
+  status.loop_queue = loop_stage_.queue_size();
   status.dense_queue = point_cloud_mapping_.queue_size();
   status.detector_queue = detector_ ? detector_->queue_size() : 0;
   return status;

@@ -10,6 +10,7 @@
 #include "semslam/dense/keyframe_cloud.h"
 #include "semslam/dense/voxel_map.h"
 #include "semslam/features/orb_extractor.h"
+#include "semslam/loop/loop_closing.h"
 #include "semslam/mapping/local_mapping.h"
 #include "semslam/segmentation/segmenter.h"
 #include "semslam/semantics/semantic_map.h"
@@ -29,6 +30,14 @@ struct DetectorSettings {
   int input_size = 0;           // Pixels; 0: as the cfg says.
 };
 
+// Whether and how drift is corrected where the camera comes back.
+struct LoopSettings {
+  bool enabled = true;
+  LoopClosing::Options closing;
+  BundleOptions bundle;       // Of the whole map, after each loop.
+  bool final_bundle = false;  // One more at the end of the run.
+};
+
 // All that a settings file says. The fields' defaults are those of the optional keys; what has no
 // sensible default must be in the file. config/README.md lists every key.
 struct Settings {
@@ -41,6 +50,7 @@ struct Settings {
   OrbExtractor::Options orb;       // ORBextractor.*
   Tracking::Options tracking;      // Its close_depth_m and frame rate are set from the above.
   LocalMapping::Options mapping;   // The same.
+  LoopSettings loop;               // LoopClosing.*
 
   // PointCloudMapping.*, Segmentation.*, SemanticMap.*
   KeyframeCloud::Options cloud;

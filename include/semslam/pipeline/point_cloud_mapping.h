@@ -8,7 +8,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "semslam/base/guarded.h"
@@ -59,6 +58,9 @@ class PointCloudMapping {
 
   // False once finished or failed.
   bool InsertKeyframe(KeyframeId keyframe, RgbdImagePtr image);
+  // Keyframes have moved: the map follows now, not only with the next keyframe. Never waits; if the
+  // queue is full, a keyframe comes soon anyway.
+  void FollowCorrection();
   bool InsertDetections(KeyframeId keyframe, std::vector<Detection> detections);
 
   // Works off what is queued, ends the thread, brings the map to the keyframes' final poses and
@@ -71,18 +73,17 @@ class PointCloudMapping {
   }
 
  private:
-  struct KeyframeJob {
-    KeyframeId keyframe;
-    RgbdImagePtr image;
+  // One of three things to do; its other fields are empty.
+  struct Job {
+    enum class Kind { kKeyframe, kDetections, kCorrection };
+    Kind kind;
+    KeyframeId keyframe = {};
+    RgbdImagePtr image = nullptr;
+    std::vector<Detection> detections = {};
   };
-  struct DetectionsJob {
-    KeyframeId keyframe;
-    std::vector<Detection> detections;
-  };
-  using Job = std::variant<KeyframeJob, DetectionsJob>;
 
   void Process(Job job);
-  void Integrate(const KeyframeJob& job);
+  void Integrate(KeyframeId keyframe, const RgbdImage& image);
   void FollowPoses(double max_shift);
   std::vector<LabelledKeyframe> LabelledKeyframes() const;
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "semslam/base/guarded.h"
@@ -17,6 +18,7 @@
 #include "semslam/camera/rgbd_image.h"
 #include "semslam/config/settings.h"
 #include "semslam/features/frame_builder.h"
+#include "semslam/loop/loop_closing.h"
 #include "semslam/map/map.h"
 #include "semslam/mapping/local_mapping.h"
 #include "semslam/pipeline/detector_thread.h"
@@ -27,9 +29,9 @@
 
 namespace semslam {
 
-// The whole: tracking in the caller's thread, local mapping, dense mapping and the detector each in
-// its own (or all in the caller's, with Threading::kInline: then the same input gives the same
-// bytes).
+// The whole: tracking in the caller's thread, local mapping, loop closing, the bundle adjustment
+// after a loop, dense mapping and the detector each in its own (or all in the caller's, with
+// Threading::kInline: then the same input gives the same bytes).
 //
 //   System system(settings, vocabulary, {});
 //   while (auto image = source.Next()) {
@@ -51,7 +53,11 @@ class System {
     std::size_t num_keyframes = 0;
     std::size_t num_landmarks = 0;
     std::size_t num_voxels = 0;
+    std::size_t num_relocalizations = 0;  // Losses after which the place was found again.
+    std::size_t num_loops = 0;            // Closed.
+    std::size_t num_full_bundles = 0;  // Bundle adjustments of the whole map that ran to the end.
     std::size_t mapping_queue = 0;
+    std::size_t loop_queue = 0;
     std::size_t dense_queue = 0;
     std::size_t detector_queue = 0;
   };
@@ -76,9 +82,10 @@ class System {
   // Images that still wait for the detector when the run ends.
   enum class PendingLabels { kFinish, kDrop };
 
-  // Lets every thread finish what is queued (kDrop: but the detector only the image in hand), and
-  // returns the final dense, segmented and labelled map. Call it once; the trajectories stay
-  // available. Without it, the destructor ends the threads and drops what is queued.
+  // Lets every thread finish what is queued (kDrop: but the detector only the image in hand, and
+  // the bundle adjustment after a loop is broken off), and returns the final dense, segmented and
+  // labelled map. Call it once; the trajectories stay available. Without it, the destructor ends
+  // the threads and drops what is queued.
   PointCloudMapping::Result Shutdown(PendingLabels pending = PendingLabels::kFinish);
 
   // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
@@ -102,21 +109,40 @@ class System {
   };
 
   Tracking::Result Skipped(const RgbdImage& image) const;
+  struct FullBundleJob {};
+  struct Events {
+    std::size_t num_relocalizations = 0;
+    std::size_t num_full_bundles = 0;
+    std::vector<LoopClosing::Loop> loops;
+  };
+
   void MapKeyframe(const KeyframeJob& job);
+  void CloseLoop(KeyframeId keyframe);
+  void AdjustAll();
+  void RethrowFailures();
+  void LogNewLoops();
   std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
 
   const LogSink log_;
+  const StereoCamera stereo_;
+  const LoopSettings loop_settings_;
   const FrameBuilder frame_builder_;
   SharedMap map_;
   Tracking tracking_;
   LocalMapping local_mapping_;
+  LoopClosing loop_closing_;
+  std::stop_source break_off_;  // The bundle adjustment of the whole map.
+  Guarded<Events> events_;
+  std::size_t num_loops_logged_ = 0;
   std::optional<TimeNs> last_time_;  // Of the newest frame.
   TrackingState last_state_ = TrackingState::kNotInitialized;
   Guarded<std::vector<TrajectoryEntry>> trajectory_;
   // Each stage after those it feeds, so that the feeder ends first.
   PointCloudMapping point_cloud_mapping_;
   std::unique_ptr<DetectorThread> detector_;
+  Stage<FullBundleJob> full_bundle_stage_;
+  Stage<KeyframeId> loop_stage_;
   Stage<KeyframeJob> mapping_stage_;
 };
 
