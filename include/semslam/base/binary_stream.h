@@ -30,8 +30,9 @@ class BinaryWriter {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
   }
   // With their number.
-  template <BinaryValue T>
-  void WriteAll(std::span<const T> values) {
+  template <typename T>
+  requires BinaryValue<std::remove_const_t<T>>
+  void WriteAll(std::span<T> values) {
     Write<std::uint64_t>(values.size());
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   }
