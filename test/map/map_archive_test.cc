@@ -26,10 +26,7 @@ class MapArchiveTest : public ::testing::Test {
   MapArchiveTest() : vocabulary_(MakeVocabulary()) {}
 
   static Vocabulary MakeVocabulary() {
-    Random random(5);
-    std::vector<Descriptor> image;
-    for (int i = 0; i < 400; ++i) image.push_back(RandomDescriptor(random));
-    const std::vector<std::vector<Descriptor>> images(3, image);
+    const auto images = RandomPlaces(10, 2, 40, 5);
     return TrainVocabulary(images, {.branching = 5, .depth = 2, .max_iterations = 3}, 1);
   }
 
