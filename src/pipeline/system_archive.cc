@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/base/error.h"
 #include "semslam/geometry/rigid3_archive.h"
 #include "semslam/map/map_archive.h"
 #include "semslam/pipeline/system.h"
@@ -85,6 +86,14 @@ void System::LoadMap(const std::filesystem::path& path) {
   }
   if (!reader.is_at_end()) reader.Fail("expected the end of the map");
   tracking_.StartInLoadedMap();
+}
+
+Settings System::ReadMapSettings(const std::filesystem::path& path) {
+  const OpenMapFile file(path);
+  BinaryReader reader(file.content(), path.string());
+  std::string text = reader.ReadText();
+  if (text.empty()) throw InputError(path.string() + ": was made without a settings file");
+  return ParseSettings(path, std::move(text));
 }
 
 void System::WriteTrajectory(BinaryWriter* writer) const {

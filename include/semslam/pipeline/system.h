@@ -100,6 +100,8 @@ class System {
   // with frames, the camera's trajectory is that of the new frames. Throws InputError if the file
   // is damaged, or was made with another camera or image pyramid.
   void LoadMap(const std::filesystem::path& path);
+  // The settings with which a map file was made. Throws InputError if there are none in it.
+  static Settings ReadMapSettings(const std::filesystem::path& path);
 
   // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
   std::vector<TrackedPose> CameraTrajectory() const;
