@@ -72,6 +72,16 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
       ->excludes(detections);
+  CLI::Option* load =
+      app.add_option("--load-map", arguments.load_map, "Go on from a map that --save-map wrote")
+          ->type_name("FILE");
+  CLI::Option* save =
+      app.add_option("--save-map", arguments.save_map, "Write a map that --load-map can go on from")
+          ->type_name("FILE");
+  app.add_flag("--localization", arguments.localization,
+               "Only find the camera in the loaded map, which stays as it is")
+      ->needs(load)
+      ->excludes(save);
   CLI::Option* sequential = app.add_flag("--sequential", arguments.sequential,
                                          "Everything in one thread: two runs write the same bytes");
   app.add_flag("--realtime", arguments.realtime,

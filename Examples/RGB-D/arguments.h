@@ -23,6 +23,9 @@ struct Arguments {
   std::filesystem::path detections;  // Folder of recorded detections, or empty.
   std::vector<std::string> classes;  // Of interest; empty: as the settings say.
   std::optional<double> score;
+  std::filesystem::path load_map;  // Empty: a new map.
+  std::filesystem::path save_map;  // Empty: not saved.
+  bool localization = false;
   bool no_semantics = false;
   bool sequential = false;
   bool realtime = false;

@@ -59,6 +59,7 @@ semslam::System::Options SystemOptions(const Arguments& arguments,
   options.threading =
       arguments.sequential ? semslam::Threading::kInline : semslam::Threading::kWorkers;
   options.detector = MakeDetector(arguments, settings.detector);
+  options.localization_only = arguments.localization;
   options.log = [&progress](semslam::LogLevel, std::string_view, std::string_view message) {
     progress.Report(std::string(message));
   };
@@ -105,13 +106,24 @@ int MapSequence(const Arguments& arguments) {
   semslam::System::Options options = SystemOptions(arguments, settings, progress);
   semslam::CheckOutputFolder(arguments.output);
 
+  if (!arguments.save_map.empty())
+    semslam::CheckOutputFolder(std::filesystem::absolute(arguments.save_map).parent_path());
+
   semslam::System system(settings, vocabulary, std::move(options));
+  if (!arguments.load_map.empty()) system.LoadMap(arguments.load_map);
   const RunStatistics run = RunSequence(arguments, settings.fps, sequence, system, progress);
   progress.ShowStep(RemainingSteps(system.status()));
   const semslam::PointCloudMapping::Result map =
       system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
                                       : semslam::System::PendingLabels::kFinish);
-  const std::string error = WriteResults(arguments.output, system, map);
+  std::string error = WriteResults(arguments.output, system, map);
+  if (!arguments.save_map.empty()) {
+    try {
+      system.SaveMap(arguments.save_map);
+    } catch (const semslam::InputError& not_saved) {
+      if (error.empty()) error = not_saved.what();
+    }
+  }
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);
   if (!error.empty()) throw semslam::InputError(error);

@@ -107,8 +107,8 @@ void ReadDetector(SettingsFile& file,
 
 }  // namespace
 
-Settings LoadSettings(const std::filesystem::path& path) {
-  SettingsFile file(path);
+Settings ParseSettings(const std::filesystem::path& path, std::string text) {
+  SettingsFile file(path.string(), text);
   Settings settings;
   ReadCamera(file, settings);
   ReadOrb(file, settings.orb);
@@ -118,7 +118,12 @@ Settings LoadSettings(const std::filesystem::path& path) {
   ReadSemanticMap(file, settings.fusion);
   ReadDetector(file, path.parent_path(), settings.detector);
   settings.warnings = file.UnknownKeys();
+  settings.text = std::move(text);
   return settings;
+}
+
+Settings LoadSettings(const std::filesystem::path& path) {
+  return ParseSettings(path, ReadSettingsText(path));
 }
 
 }  // namespace semslam

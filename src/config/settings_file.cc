@@ -115,7 +115,9 @@ bool LooksLike(std::string_view a, std::string_view b) {
   return shorter.substr(position) == longer.substr(position + 1);
 }
 
-std::string ReadText(const std::filesystem::path& path) {
+}  // namespace
+
+std::string ReadSettingsText(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw InputError(path.string() + ": expected a settings file, found a folder");
@@ -129,10 +131,8 @@ std::string ReadText(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-}  // namespace
-
 SettingsFile::SettingsFile(const std::filesystem::path& path)
-    : SettingsFile(path.string(), ReadText(path)) {}
+    : SettingsFile(path.string(), ReadSettingsText(path)) {}
 
 SettingsFile::SettingsFile(std::string name, std::string_view text) : name_(std::move(name)) {
   Parse(text);

@@ -21,9 +21,10 @@ constexpr std::size_t kMappingQueueCapacity = 16;
 // Loop closing is faster than keyframes come, but while it closes one.
 constexpr std::size_t kLoopQueueCapacity = 64;
 
-Tracking::Options TrackingOptions(const Settings& settings) {
+Tracking::Options TrackingOptions(const Settings& settings, bool localization_only) {
   Tracking::Options options = settings.tracking;
   options.close_depth_m = settings.CloseDepth();
+  options.localization_only = localization_only;
   options.keyframes.max_frames_between = std::max(1, static_cast<int>(std::lround(settings.fps)));
   return options;
 }
@@ -49,19 +50,23 @@ System::System(const Settings& settings,
                const std::shared_ptr<const Vocabulary>& vocabulary,
                Options options)
     : log_(std::move(options.log)),
-      stereo_(MakeStereoCamera(PinholeCamera(settings.camera), settings.bf)),
+      settings_text_(settings.text),
+      camera_(settings.camera),
+      vocabulary_(vocabulary),
+      stereo_(MakeStereoCamera(camera_, settings.bf)),
       loop_settings_(settings.loop),
-      frame_builder_(settings.orb, PinholeCamera(settings.camera), settings.bf),
+      frame_builder_(settings.orb, camera_, settings.bf),
       map_(ScaleSpace{settings.orb.scale_factor, settings.orb.num_levels}),
-      tracking_(
-          TrackingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
-      local_mapping_(
-          MappingOptions(settings), PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
-      loop_closing_(
-          settings.loop.closing, PinholeCamera(settings.camera), settings.bf, vocabulary, map_),
+      tracking_(TrackingOptions(settings, options.localization_only),
+                camera_,
+                settings.bf,
+                vocabulary,
+                map_),
+      local_mapping_(MappingOptions(settings), camera_, settings.bf, vocabulary, map_),
+      loop_closing_(settings.loop.closing, camera_, settings.bf, vocabulary, map_),
       point_cloud_mapping_(options.threading,
                            PointCloudOptions(settings),
-                           PinholeCamera(settings.camera),
+                           camera_,
                            options.detector ? options.detector->classes() : ClassTable(),
                            [this](const std::vector<KeyframeId>& ids) { return LookUpPoses(ids); }),
       detector_(options.detector
@@ -97,6 +102,7 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
   const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
   Tracking::Result result = tracking_.Track(std::move(frame), load);
+  if (std::exchange(trajectory_is_loaded_, false)) trajectory_.Write([](auto& e) { e.clear(); });
   last_time_ = image->time;
   last_state_ = result.state;
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
@@ -179,6 +185,7 @@ PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   if (detector_) {
     pending == PendingLabels::kDrop ? detector_->Cancel() : detector_->Finish();
   }
+  is_shut_down_ = true;
   return point_cloud_mapping_.Finish();
 }
 
@@ -212,6 +219,9 @@ std::vector<System::TrackedPose> System::KeyframeTrajectory() const {
       const Keyframe& keyframe = map.keyframe(id);
       poses.push_back({keyframe.frame->time, keyframe.T_world_camera});
     }
+    // A map may be made of several recordings, of any order.
+    std::stable_sort(poses.begin(), poses.end(),
+                     [](const TrackedPose& a, const TrackedPose& b) { return a.time < b.time; });
     return poses;
   });
 }

@@ -11,8 +11,8 @@
 
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
+#include "semslam/base/mapped_file.h"
 
-#include "place/mapped_file.h"
 #include "place/vocabulary_file.h"
 
 namespace semslam {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "semslam/base/checksum.h"
 #include "semslam/base/error.h"
 
 #include "place/vocabulary_file.h"
@@ -30,26 +31,9 @@ constexpr std::array<char, 8> kMagic = {'s', 'e', 'm', 's', 'l', 'v', 'o', 'c'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kBytesPerNode = sizeof(Descriptor) + sizeof(Node);
 
-// FNV-1a (Fowler, Noll, Vo) on 64-bit words instead of bytes; a last, incomplete word is filled up
-// with zeros. Each step can be undone, so that a change to any one word changes the sum.
-std::uint64_t AddToChecksum(std::uint64_t sum, std::span<const std::byte> bytes) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, 8);
-    sum = (sum ^ word) * kPrime;
-  }
-  if (i == bytes.size()) return sum;
-  std::uint64_t word = 0;
-  std::memcpy(&word, bytes.data() + i, bytes.size() - i);
-  return (sum ^ word) * kPrime;
-}
-
 std::uint64_t Checksum(Header header, std::span<const std::byte> body) {
-  constexpr std::uint64_t kOffsetBasis = 0xcbf29ce484222325;
   header.checksum = 0;
-  return AddToChecksum(AddToChecksum(kOffsetBasis, std::as_bytes(std::span(&header, 1))), body);
+  return AddToChecksum(AddToChecksum(kChecksumStart, std::as_bytes(std::span(&header, 1))), body);
 }
 
 }  // namespace

@@ -68,6 +68,18 @@ Tracking::Tracking(const Options& options,
   SEMSLAM_CHECK(vocabulary_ != nullptr);
 }
 
+void Tracking::StartInLoadedMap() {
+  SEMSLAM_CHECK(state_ == TrackingState::kNotInitialized);
+  map_.Read([&](const Map& map) {
+    const std::vector<KeyframeId> ids = map.KeyframeIds();
+    if (ids.empty()) return;
+    state_ = TrackingState::kLost;
+    map_is_loaded_ = true;
+    last_reference_ = ids.back();
+    epoch_ = map.epoch();
+  });
+}
+
 Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper) {
   SEMSLAM_CHECK(frame != nullptr);
   if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
@@ -100,6 +112,7 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
   Result result;
+  if (options_.localization_only) return result;
   if (static_cast<int>(frame->keypoints.size()) <= options_.min_features_to_start) return result;
   TrackedFrame first = EmptyFrame(std::move(frame), Rigid3());
   const NewPointOptions all_points{.close_depth_m = std::numeric_limits<double>::infinity(),

@@ -65,6 +65,8 @@ struct Settings {
   // What the file holds that nothing here asks for; to be shown to the user once.
   std::vector<std::string> warnings;
 
+  std::string text;  // The file as it is; maps keep it.
+
   // Depths below this are close (m).
   double CloseDepth() const { return close_depth_factor * bf / camera.fx; }
 };
@@ -72,5 +74,8 @@ struct Settings {
 // Reads a settings file, as it comes with ORB-SLAM2 (TUM1.yaml ...) or with more keys of ours.
 // Throws InputError naming file, key, what was found and what is allowed.
 Settings LoadSettings(const std::filesystem::path& path);
+// The same from the text of a file; `path` stands in the messages, and relative paths start at its
+// folder.
+Settings ParseSettings(const std::filesystem::path& path, std::string text);
 
 }  // namespace semslam

@@ -25,6 +25,9 @@ struct NumberRange {
   static NumberRange Between(double min, double max) { return {.min = min, .max = max}; }
 };
 
+// Throws InputError if the file cannot be read.
+std::string ReadSettingsText(const std::filesystem::path& path);
+
 // Strict reader of a flat settings file as OpenCV writes them and ORB-SLAM2's users have them: a
 // first line %YAML:1.0, then lines `Key.name: value`, and comments after #. Every error is an
 // InputError of one line with file, key, what was found and what is allowed:

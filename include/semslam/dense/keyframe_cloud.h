@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "semslam/base/binary_stream.h"
 #include "semslam/base/id.h"
 #include "semslam/camera/pinhole_camera.h"
 #include "semslam/camera/rgbd_image.h"
@@ -89,6 +90,9 @@ class KeyframeCloud {
       const RgbdImage& image,
       std::shared_ptr<const RayTable> rays,
       const KeyframeCloud::Options& options);
+  friend void WriteKeyframeCloud(const KeyframeCloud& cloud, BinaryWriter* writer);
+  friend std::shared_ptr<const KeyframeCloud> ReadKeyframeCloud(
+      BinaryReader* reader, std::shared_ptr<const RayTable> rays);
 
   KeyframeId id_;
   int stride_ = 1;

@@ -113,6 +113,8 @@ class Map {
   void CheckConsistency() const;
 
  private:
+  friend class MapArchive;  // Writes and reads it as a file.
+
   struct KeyframeSlot {
     std::unique_ptr<Keyframe>
         keyframe;  // Null once erased; then the two below hold its place in the tree.

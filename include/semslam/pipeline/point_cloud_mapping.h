@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "semslam/base/binary_stream.h"
 #include "semslam/base/guarded.h"
 #include "semslam/base/id.h"
 #include "semslam/base/stage.h"
@@ -63,6 +64,14 @@ class PointCloudMapping {
   void FollowCorrection();
   bool InsertDetections(KeyframeId keyframe, std::vector<Detection> detections);
 
+  // All that a map file has to keep: the keyframes' clouds and what was detected in them. Only once
+  // finished.
+  void Write(BinaryWriter* writer) const;
+  // Goes on from what Write wrote; before anything is inserted. The keyframes' poses are looked up.
+  // Of a map with other classes than the detector's the detections are dropped: returns false.
+  // Throws InputError if the bytes are damaged.
+  bool Restore(BinaryReader* reader);
+
   // Works off what is queued, ends the thread, brings the map to the keyframes' final poses and
   // labels it. Rethrows what the thread threw.
   Result Finish();
@@ -89,7 +98,7 @@ class PointCloudMapping {
 
   const Options options_;
   const std::shared_ptr<const RayTable> rays_;
-  const ClassTable classes_;
+  ClassTable classes_;
   const PoseLookup pose_lookup_;
   // The stage's own, until it has finished.
   VoxelMap voxel_map_;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
 
+#include "semslam/base/binary_stream.h"
 #include "semslam/base/guarded.h"
 #include "semslam/base/log.h"
 #include "semslam/base/stage.h"
@@ -46,6 +48,8 @@ class System {
     Threading threading = Threading::kWorkers;
     std::unique_ptr<Detector> detector;  // Null: geometry and segments only.
     LogSink log;                         // May be empty.
+    // Finds the camera in a loaded map, and leaves the map as it is.
+    bool localization_only = false;
   };
 
   // What can be watched while it runs.
@@ -89,6 +93,17 @@ class System {
   // the threads and drops what is queued.
   PointCloudMapping::Result Shutdown(PendingLabels pending = PendingLabels::kFinish);
 
+  // Writes everything that a later run needs to go on, in one file, complete or not at all. After
+  // Shutdown; in any state, also while lost. Throws InputError if it cannot be written.
+  void SaveMap(const std::filesystem::path& path) const;
+  // Goes on from a map that SaveMap wrote: before the first frame, which is then looked for in the
+  // map. Shut down without any frame, it gives the results of the run that saved it, to the byte;
+  // with frames, the camera's trajectory is that of the new frames. Throws InputError if the file
+  // is damaged, or was made with another camera or image pyramid.
+  void LoadMap(const std::filesystem::path& path);
+  // The settings with which a map file was made. Throws InputError if there are none in it.
+  static Settings ReadMapSettings(const std::filesystem::path& path);
+
   // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
   std::vector<TrackedPose> CameraTrajectory() const;
   std::vector<TrackedPose> KeyframeTrajectory() const;
@@ -117,6 +132,8 @@ class System {
     std::vector<LoopClosing::Loop> loops;
   };
 
+  void WriteTrajectory(BinaryWriter* writer) const;
+  void ReadTrajectory(BinaryReader* reader);
   void MapKeyframe(const KeyframeJob& job);
   void CloseLoop(KeyframeId keyframe);
   void AdjustAll();
@@ -126,6 +143,9 @@ class System {
   void Log(LogLevel level, const std::string& message) const;
 
   const LogSink log_;
+  const std::string settings_text_;
+  const PinholeCamera camera_;
+  const std::shared_ptr<const Vocabulary> vocabulary_;
   const StereoCamera stereo_;
   const LoopSettings loop_settings_;
   const FrameBuilder frame_builder_;
@@ -138,6 +158,8 @@ class System {
   std::size_t num_loops_logged_ = 0;
   std::optional<TimeNs> last_time_;  // Of the newest frame.
   TrackingState last_state_ = TrackingState::kNotInitialized;
+  bool trajectory_is_loaded_ = false;  // From a map file, until the first frame.
+  bool is_shut_down_ = false;
   Guarded<std::vector<TrajectoryEntry>> trajectory_;
   // Each stage after those it feeds, so that the feeder ends first.
   PointCloudMapping point_cloud_mapping_;

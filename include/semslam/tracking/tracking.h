@@ -47,6 +47,7 @@ class Tracking {
     std::size_t max_places_tried = 6;  // In each lost frame; bounds its time.
     // Lost with no more keyframes than these, for as many frames as were tracked: start over.
     std::size_t min_keyframes_to_keep = 5;
+    bool localization_only = false;  // In a loaded map, which stays as it is.
     KeyframePolicy::Options keyframes;
     void Validate() const;  // Throws std::logic_error.
   };
@@ -73,6 +74,10 @@ class Tracking {
   // `frame` must be newer than the one before. An image without features is a normal case: it is
   // lost.
   Result Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
+
+  // The map was filled from elsewhere: the first frame is looked for in it, and it is never given
+  // up. Before the first frame; without keyframes in the map nothing changes.
+  void StartInLoadedMap();
 
  private:
   // A frame that was found in the map.
@@ -110,6 +115,7 @@ class Tracking {
   const FrameLocator locator_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
+  bool map_is_loaded_ = false;
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;
   std::uint64_t epoch_ = 0;    // Of the map in which the poses below are.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "place/mapped_file.h"
+#include "semslam/base/mapped_file.h"
 
 #include <cerrno>
 #include <string>

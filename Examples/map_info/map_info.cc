@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What is in a map that rgbd_tum --save-map wrote, and its clouds and objects as files:
+//   map_info desk.map --output RESULT
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "semslam/base/error.h"
+#include "semslam/base/time.h"
+#include "semslam/config/settings.h"
+#include "semslam/io/atomic_file.h"
+#include "semslam/pipeline/system.h"
+#include "semslam/place/vocabulary.h"
+
+#include "RGB-D/result_files.h"
+#include "printable.h"
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path map;
+  std::filesystem::path output;
+};
+
+// Nothing is looked for in the map here, so it needs no words: two that tell nothing.
+std::shared_ptr<const semslam::Vocabulary> NoWords() {
+  using Node = semslam::Vocabulary::Node;
+  return std::make_shared<const semslam::Vocabulary>(
+      2, 1,
+      std::vector<Node>{{.first_child = 1, .num_children = 2},
+                        {.first_child = 0, .num_children = 0},
+                        {.first_child = 1, .num_children = 0}},
+      std::vector<semslam::Descriptor>(3));
+}
+
+void Print(const Arguments& arguments,
+           const semslam::Settings& settings,
+           const semslam::System& system) {
+  const semslam::System::Status status = system.status();
+  const auto frames = system.CameraTrajectory();
+  std::printf("map                   %s, %.1f MB\n", arguments.map.c_str(),
+              static_cast<double>(std::filesystem::file_size(arguments.map)) / 1e6);
+  std::printf("camera                %dx%d, fx %.3f fy %.3f cx %.3f cy %.3f\n",
+              settings.camera.width, settings.camera.height, settings.camera.fx, settings.camera.fy,
+              settings.camera.cx, settings.camera.cy);
+  std::printf("frames                %zu", frames.size());
+  if (!frames.empty()) {
+    std::printf(", %s to %s s", semslam::FormatTime(frames.front().time).c_str(),
+                semslam::FormatTime(frames.back().time).c_str());
+  }
+  std::printf("\nkeyframes             %zu\n", status.num_keyframes);
+  std::printf("landmarks             %zu\n", status.num_landmarks);
+  std::printf("map points            %zu\n", status.num_voxels);
+}
+
+void Run(const Arguments& arguments) {
+  const semslam::Settings settings = semslam::System::ReadMapSettings(arguments.map);
+  semslam::System system(
+      settings, NoWords(),
+      {.threading = semslam::Threading::kInline, .detector = nullptr, .log = {}});
+  system.LoadMap(arguments.map);
+  if (!arguments.output.empty()) semslam::CheckOutputFolder(arguments.output);
+  Print(arguments, settings, system);
+  if (arguments.output.empty()) return;
+  const std::string error = WriteResults(arguments.output, system, system.Shutdown());
+  if (!error.empty()) throw semslam::InputError(error);
+  std::printf("files                 %s\n",
+              std::filesystem::absolute(arguments.output).lexically_normal().c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("Tells what is in a map that rgbd_tum --save-map wrote.");
+    Arguments arguments;
+    app.add_option("MAP", arguments.map, "Map file")->required();
+    app.add_option("--output", arguments.output,
+                   "Write trajectories, clouds, objects and pictures into this folder");
+    app.set_version_flag("--version", "map_info " SEMSLAM_VERSION);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+      return app.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+      throw std::runtime_error(std::string(error.what()) + " (--help shows the usage)");
+    }
+    Run(arguments);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "map_info: " << Printable(error.what()) << '\n';
+    return 1;
+  }
+}
