@@ -3,6 +3,7 @@
 
 // What Tracking does once a frame's pose is known, or is not to be had.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "semslam/tracking/tracking.h"
@@ -10,6 +11,21 @@
 #include "tracking/new_points.h"
 
 namespace semslam {
+namespace {
+
+// The share of the picture that a camera loses from sight by turning and by moving aside, if what
+// it sees is `distance` away.
+double NewShare(const PinholeCamera& camera,
+                const Rigid3& T_world_before,
+                const Rigid3& T_world_now,
+                double distance) {
+  constexpr double kMaxAngle = 1.5;  // Radians: there is nothing in common long before.
+  const double angle = std::min(RotationAngle(T_world_before, T_world_now), kMaxAngle);
+  const double shift = (T_world_now.translation - T_world_before.translation).norm();
+  return (std::tan(angle) + shift / distance) * camera.fx() / camera.width();
+}
+
+}  // namespace
 
 Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
   TrackedFrame& current = located.frame;
@@ -70,17 +86,22 @@ KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
   now.num_frames_since_keyframe = num_frames_since_keyframe_;
   now.num_inliers = num_inliers;
   now.mapper = mapper;
+  double sum_of_depths = 0;
   for (std::size_t i = 0; i < current.points.size(); ++i) {
     const float depth = current.frame->keypoints[i].depth;
     if (depth <= 0 || depth > options_.close_depth_m) continue;
     ++(current.points[i] ? now.num_close_tracked : now.num_close_untracked);
+    sum_of_depths += depth;
   }
+  const int num_close = now.num_close_tracked + now.num_close_untracked;
+  const double distance = num_close > 0 ? sum_of_depths / num_close : options_.close_depth_m;
   map_.Read([&](const Map& map) {
     now.num_keyframes = static_cast<int>(map.num_keyframes());
     const int min_measurements = now.num_keyframes <= 2 ? 2 : 3;
-    if (map.FindKeyframe(reference) != nullptr) {
-      now.num_reference_landmarks = map.NumTrackedLandmarks(reference, min_measurements);
-    }
+    const Keyframe* const keyframe = map.FindKeyframe(reference);
+    if (keyframe == nullptr) return;
+    now.num_reference_landmarks = map.NumTrackedLandmarks(reference, min_measurements);
+    now.new_share = NewShare(camera_, keyframe->T_world_camera, current.T_world_camera, distance);
   });
   return now;
 }
