@@ -25,6 +25,7 @@ class SystemLoop : public ::testing::Test {
   std::unique_ptr<System> MakeSystem(Threading threading, bool enabled = true) {
     Settings settings = TurningCamera::MakeSettings();
     settings.loop.enabled = enabled;
+    settings.tracking.keyframes.max_new_share = 10;  // Few keyframes, so that there is drift.
     return std::make_unique<System>(
         settings, Words(),
         System::Options{.threading = threading,
