@@ -6,9 +6,10 @@ import unittest
 from harness import CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
 PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
-            "evaluate_segmentation"]
+            "evaluate_segmentation", "segment_cloud", "map_info"]
 OPTIONS = ["--output", "--network", "--detections", "--classes", "--score", "--no-semantics",
-           "--sequential", "--realtime", "--help", "--version"]
+           "--sequential", "--realtime", "--load-map", "--save-map", "--localization", "--help",
+           "--version"]
 
 
 class UsageTest(EndToEndTest):
