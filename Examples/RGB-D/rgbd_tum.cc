@@ -4,8 +4,6 @@
 // Maps a recorded RGB-D sequence in the format of the TUM benchmark:
 //   rgbd_tum Vocabulary/orb.voc config/TUM1.yaml SEQUENCE SEQUENCE/associations.txt --output RESULT
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -22,6 +20,7 @@
 #include "semslam/place/vocabulary.h"
 
 #include "arguments.h"
+#include "interrupt.h"
 #include "printable.h"
 #include "progress_line.h"
 #include "result_files.h"
@@ -31,18 +30,6 @@
 namespace {
 
 constexpr double kMaxLostShare = 0.05;  // Of the frames; more is exit code 2.
-
-// The only thing a signal handler may touch.
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-void InstallInterruptHandler() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_requested = 1; };
-  // A second Ctrl-C ends the program at once.
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 semslam::TumDataset OpenSequence(const Arguments& arguments, const semslam::Settings& settings) {
   semslam::TumDataset::Options options;

@@ -3,7 +3,6 @@
 // Compares a map with the truth of the rendered clip it was made from:
 //   evaluate_map CLIP RESULT
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@
 #include "semslam/io/cloud_io.h"
 
 #include "map_report.h"
-#include "printable.h"
+#include "run_program.h"
 
 namespace {
 
@@ -41,7 +40,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", "evaluate_map " SEMSLAM_VERSION);
 }
 
-void Run(const Arguments& arguments) {
+int Run(const Arguments& arguments) {
   const semslam::ClipTruth truth = semslam::ReadClipTruth(arguments.clip);
   const semslam::MapResult result = semslam::ReadMapResult(arguments.result);
   const semslam::MapEvaluation evaluation = semslam::EvaluateMap(truth, result, arguments.options);
@@ -53,29 +52,15 @@ void Run(const Arguments& arguments) {
                       {.positions = result.positions, .labels = evaluation.region_of_point});
   }
   std::cout << MapTable(evaluation, truth);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    Arguments arguments;
-    CLI::App app(
-        "Compares a map with the truth of the rendered clip it was made from: trajectory, surface, "
-        "segments, class labels, objects.");
-    AddArguments(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& help_or_version) {
-      return app.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-      std::cerr << "evaluate_map: " << Printable(error.what()) << " (--help shows the usage)\n";
-      return 1;
-    }
-    Run(arguments);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_map: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>(
+      "evaluate_map",
+      "Compares a map with the truth of the rendered clip it was made from: trajectory, surface, "
+      "segments, class labels, objects.",
+      argc, argv, AddArguments, Run);
 }

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 
 #include <nlohmann/json.hpp>
 
+#include "format_line.h"
 #include "printable.h"
 
 namespace {
@@ -24,15 +23,6 @@ using semslam::ObjectScore;
 using semslam::RegionScore;
 using semslam::ScoredObject;
 using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string Line(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 // "0.873", or "-" if it is a share of nothing.
 std::string Share(double value) { return std::isnan(value) ? "-" : Line("%.3f", value); }

@@ -9,6 +9,7 @@
 #include "semslam/segmentation/segmenter.h"
 
 #include "pcl_methods.h"
+#include "viewer_directions.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ MethodResult FromPcl(PclSegmentation segmentation) {
 }
 
 MethodResult RunGraph(const LabelledCloud& cloud) {
-  const std::vector<Eigen::Vector3f> views = cloud.Views();
+  const std::vector<Eigen::Vector3f> views = ViewerDirections(cloud.points, cloud.normals);
   const semslam::Segmenter segmenter{semslam::Segmenter::Options()};
   const semslam::Stopwatch watch;
   semslam::Segmentation segmentation = segmenter.Segment({cloud.points, views});

@@ -3,7 +3,6 @@
 // Runs this project's segmentation beside PCL's on clouds, with labels or without:
 //   evaluate_segmentation --label-parts mosd
 //   evaluate_segmentation result/global_color.pcd
-#include <exception>
 #include <iostream>
 #include <map>
 #include <set>
@@ -15,8 +14,8 @@
 
 #include "semslam/io/atomic_file.h"
 
-#include "printable.h"
 #include "report.h"
+#include "run_program.h"
 
 namespace {
 
@@ -61,7 +60,7 @@ CloudReport Evaluate(const LabelledCloud& cloud, const Arguments& arguments) {
   return report;
 }
 
-void Run(const Arguments& arguments) {
+int Run(const Arguments& arguments) {
   const std::vector<std::filesystem::path> paths = FindClouds(arguments.paths);
   if (!arguments.pictures.empty()) semslam::CheckOutputFolder(arguments.pictures);
   std::vector<CloudReport> reports;
@@ -74,28 +73,13 @@ void Run(const Arguments& arguments) {
   if (reports.size() > 1) std::cout << TableMeans(reports);
   if (!arguments.json.empty())
     semslam::WriteFileAtomically(arguments.json, ComparisonJson(reports));
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    Arguments arguments;
-    CLI::App app("Runs this project's segmentation beside PCL's on point clouds.");
-    AddArguments(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& help_or_version) {
-      return app.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-      std::cerr << "evaluate_segmentation: " << Printable(error.what())
-                << " (--help shows the usage)\n";
-      return 1;
-    }
-    Run(arguments);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_segmentation: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>("evaluate_segmentation",
+                               "Runs this project's segmentation beside PCL's on point clouds.",
+                               argc, argv, AddArguments, Run);
 }

@@ -34,14 +34,6 @@ std::vector<fs::path> CloudsIn(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> LabelledCloud::Views() const {
-  if (!normals.empty()) return normals;
-  std::vector<Eigen::Vector3f> views;
-  views.reserve(points.size());
-  for (const Eigen::Vector3f& point : points) views.push_back(-point);
-  return views;
-}
-
 std::vector<fs::path> FindClouds(const std::vector<std::string>& paths) {
   std::vector<fs::path> clouds;
   for (const fs::path path : paths) {

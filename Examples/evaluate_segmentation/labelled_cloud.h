@@ -19,10 +19,6 @@ struct LabelledCloud {
   std::vector<Eigen::Vector3f> normals;  // Empty if the file has none.
   std::vector<semslam::Rgb> colors;      // Empty if the file has none.
   std::vector<std::uint32_t> truth;      // 0: unknown. Empty if the file has no labels.
-
-  // Towards the viewer: the normals, or else the directions to the origin, where the camera of a
-  // single view and the first camera of a map are.
-  std::vector<Eigen::Vector3f> Views() const;
 };
 
 // The PCD files among the given ones and in the given folders, by name. Throws InputError if there

@@ -4,8 +4,6 @@
 #include "report.h"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -13,20 +11,12 @@
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/map_picture.h"
 
+#include "format_line.h"
 #include "printable.h"
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 1, 2)]] std::string Line(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 std::string Row(const std::string& name,
                 const std::string& num_points,

@@ -3,7 +3,6 @@
 // Compares an estimated trajectory with the true one, as the TUM RGB-D benchmark does:
 //   evaluate_trajectory groundtruth.txt CameraTrajectory.txt
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 
@@ -13,7 +12,7 @@
 #include "semslam/eval/trajectory_error.h"
 #include "semslam/io/trajectory_io.h"
 
-#include "printable.h"
+#include "run_program.h"
 
 namespace {
 
@@ -46,38 +45,32 @@ void PrintJson(const semslam::TrajectoryError& error) {
   std::cout << json.dump(2) << '\n';
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app("Absolute and relative error of a trajectory in the TUM format.");
-  std::string truth_path;
-  std::string estimate_path;
+struct Arguments {
+  std::string truth;
+  std::string estimate;
   bool as_json = false;
-  app.add_option("GROUNDTRUTH", truth_path, "True trajectory: t tx ty tz qx qy qz qw")->required();
-  app.add_option("ESTIMATE", estimate_path, "Estimated trajectory, same format")->required();
-  app.add_flag("--json", as_json, "Print JSON");
+};
+
+void AddArguments(CLI::App& app, Arguments& arguments) {
+  app.add_option("GROUNDTRUTH", arguments.truth, "True trajectory: t tx ty tz qx qy qz qw")
+      ->required();
+  app.add_option("ESTIMATE", arguments.estimate, "Estimated trajectory, same format")->required();
+  app.add_flag("--json", arguments.as_json, "Print JSON");
   app.set_version_flag("--version", "evaluate_trajectory " SEMSLAM_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "evaluate_trajectory: " << Printable(error.what())
-              << " (--help shows the usage)\n";
-    return 1;
-  }
-  const semslam::Trajectory truth = semslam::ReadTrajectory(truth_path);
-  const semslam::Trajectory estimate = semslam::ReadTrajectory(estimate_path);
+}
+
+int Run(const Arguments& arguments) {
+  const semslam::Trajectory truth = semslam::ReadTrajectory(arguments.truth);
+  const semslam::Trajectory estimate = semslam::ReadTrajectory(arguments.estimate);
   const semslam::TrajectoryError error = semslam::EvaluateTrajectory(truth, estimate);
-  as_json ? PrintJson(error) : PrintText(error);
+  arguments.as_json ? PrintJson(error) : PrintText(error);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return Run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_trajectory: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>("evaluate_trajectory",
+                               "Absolute and relative error of a trajectory in the TUM format.",
+                               argc, argv, AddArguments, Run);
 }

@@ -4,11 +4,8 @@
 // What is in a map that rgbd_tum --save-map wrote, and its clouds and objects as files:
 //   map_info desk.map --output RESULT
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <iostream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +18,7 @@
 #include "semslam/place/vocabulary.h"
 
 #include "RGB-D/result_files.h"
-#include "printable.h"
+#include "run_program.h"
 
 namespace {
 
@@ -39,6 +36,13 @@ std::shared_ptr<const semslam::Vocabulary> NoWords() {
                         {.first_child = 0, .num_children = 0},
                         {.first_child = 1, .num_children = 0}},
       std::vector<semslam::Descriptor>(3));
+}
+
+void AddArguments(CLI::App& app, Arguments& arguments) {
+  app.add_option("MAP", arguments.map, "Map file")->required();
+  app.add_option("--output", arguments.output,
+                 "Write trajectories, clouds, objects and pictures into this folder");
+  app.set_version_flag("--version", "map_info " SEMSLAM_VERSION);
 }
 
 void Print(const Arguments& arguments,
@@ -61,7 +65,7 @@ void Print(const Arguments& arguments,
   std::printf("map points            %zu\n", status.num_voxels);
 }
 
-void Run(const Arguments& arguments) {
+int Run(const Arguments& arguments) {
   const semslam::Settings settings = semslam::System::ReadMapSettings(arguments.map);
   semslam::System system(
       settings, NoWords(),
@@ -69,34 +73,17 @@ void Run(const Arguments& arguments) {
   system.LoadMap(arguments.map);
   if (!arguments.output.empty()) semslam::CheckOutputFolder(arguments.output);
   Print(arguments, settings, system);
-  if (arguments.output.empty()) return;
+  if (arguments.output.empty()) return 0;
   const std::string error = WriteResults(arguments.output, system, system.Shutdown());
   if (!error.empty()) throw semslam::InputError(error);
   std::printf("files                 %s\n",
               std::filesystem::absolute(arguments.output).lexically_normal().c_str());
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    CLI::App app("Tells what is in a map that rgbd_tum --save-map wrote.");
-    Arguments arguments;
-    app.add_option("MAP", arguments.map, "Map file")->required();
-    app.add_option("--output", arguments.output,
-                   "Write trajectories, clouds, objects and pictures into this folder");
-    app.set_version_flag("--version", "map_info " SEMSLAM_VERSION);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& help_or_version) {
-      return app.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-      throw std::runtime_error(std::string(error.what()) + " (--help shows the usage)");
-    }
-    Run(arguments);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "map_info: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>("map_info", "Tells what is in a map that rgbd_tum --save-map wrote.",
+                               argc, argv, AddArguments, Run);
 }

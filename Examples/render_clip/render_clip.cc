@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a made-up RGB-D recording, with exact truth, in the format of the TUM RGB-D benchmark.
-#include <csignal>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -18,7 +16,9 @@
 #include "semslam/render/clip.h"
 #include "semslam/render/clip_writer.h"
 
+#include "interrupt.h"
 #include "printable.h"
+#include "run_program.h"
 
 namespace {
 
@@ -36,19 +36,7 @@ struct Arguments {
   semslam::RenderedClip::Options clip;
 };
 
-// The only thing a signal handler may touch.
-volatile std::sig_atomic_t interrupt_requested = 0;
-
 struct Interrupted {};
-
-void InstallInterruptHandler() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_requested = 1; };
-  // A second Ctrl-C ends the program at once.
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string Listed(const std::vector<std::string>& names) {
   std::string list;
@@ -131,7 +119,7 @@ void ShowProgress(std::size_t num_written, std::size_t num_frames, double second
                num_written, num_frames, rate, static_cast<double>(num_frames - num_written) / rate);
 }
 
-void Run(Arguments arguments) {
+void Render(Arguments arguments) {
   arguments.clip.camera = semslam::CameraByName(arguments.camera);
   ApplyEffects(arguments, &arguments.clip);
   semslam::DetectionOptions detections;
@@ -155,31 +143,22 @@ void Run(Arguments arguments) {
               static_cast<double>(clip.num_frames()) / watch.Seconds());
 }
 
+int Run(const Arguments& arguments) {
+  InstallInterruptHandler();
+  try {
+    Render(arguments);
+  } catch (const Interrupted&) {
+    std::cerr << "render_clip: interrupted: " << Printable(arguments.folder.string())
+              << " is unfinished and has no lists of frames\n";
+    return 130;
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    Arguments arguments;
-    CLI::App app("Renders an RGB-D clip with exact truth, as a folder in the TUM RGB-D format.");
-    AddArguments(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-      return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-      throw std::runtime_error(std::string(error.what()) + " (--help shows the usage)");
-    }
-    InstallInterruptHandler();
-    try {
-      Run(arguments);
-    } catch (const Interrupted&) {
-      std::cerr << "render_clip: interrupted: " << Printable(arguments.folder.string())
-                << " is unfinished and has no lists of frames\n";
-      return 130;
-    }
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "render_clip: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>(
+      "render_clip", "Renders an RGB-D clip with exact truth, as a folder in the TUM RGB-D format.",
+      argc, argv, AddArguments, Run);
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Divides one point cloud into segments:
 //   segment_cloud room.pcd segments.pcd --planes planes.json
-#include <exception>
 #include <iostream>
 #include <map>
 #include <span>
@@ -20,7 +19,8 @@
 #include "semslam/segmentation/segmenter.h"
 
 #include "pcl_methods.h"
-#include "printable.h"
+#include "run_program.h"
+#include "viewer_directions.h"
 
 namespace {
 
@@ -54,15 +54,6 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", "segment_cloud " SEMSLAM_VERSION);
 }
 
-// Towards the viewer of every point.
-std::vector<Eigen::Vector3f> ViewsOf(const semslam::CloudColumns& cloud) {
-  if (!cloud.normals.empty()) return cloud.normals;
-  std::vector<Eigen::Vector3f> views;
-  views.reserve(cloud.positions.size());
-  for (const Eigen::Vector3f& point : cloud.positions) views.push_back(-point);
-  return views;
-}
-
 Json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json ToJson(const semslam::Plane& plane) {
@@ -88,7 +79,7 @@ std::string PlanesJson(const semslam::Segmentation& result) {
 
 std::vector<semslam::SegmentId> SegmentWithGraph(const semslam::CloudColumns& cloud,
                                                  const std::string& planes_file) {
-  const std::vector<Eigen::Vector3f> views = ViewsOf(cloud);
+  const std::vector<Eigen::Vector3f> views = ViewerDirections(cloud.positions, cloud.normals);
   const semslam::Segmenter segmenter{semslam::Segmenter::Options()};
   semslam::Segmentation result = segmenter.Segment({cloud.positions, views});
   std::cout << result.segments.size() << " segments, " << result.planes.size() << " planes, "
@@ -108,7 +99,7 @@ std::vector<semslam::SegmentId> Segment(const semslam::CloudColumns& cloud,
   return std::move(result.segment_of_point);
 }
 
-void Run(const Arguments& arguments) {
+int Run(const Arguments& arguments) {
   if (!arguments.planes.empty() && arguments.method != Method::kGraph) {
     throw semslam::InputError("--planes: expected with --method graph, found another method");
   }
@@ -125,27 +116,13 @@ void Run(const Arguments& arguments) {
                                        .normals = cloud.normals,
                                        .labels = cloud.labels,
                                        .segments = segments});
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    Arguments arguments;
-    CLI::App app("Divides a point cloud into surfaces and things by its geometry.");
-    AddArguments(app, arguments);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::Success& help_or_version) {
-      return app.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-      std::cerr << "segment_cloud: " << Printable(error.what()) << " (--help shows the usage)\n";
-      return 1;
-    }
-    Run(arguments);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "segment_cloud: " << Printable(error.what()) << '\n';
-    return 1;
-  }
+  return RunProgram<Arguments>("segment_cloud",
+                               "Divides a point cloud into surfaces and things by its geometry.",
+                               argc, argv, AddArguments, Run);
 }

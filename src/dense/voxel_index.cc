@@ -8,8 +8,6 @@
 
 #include "semslam/base/check.h"
 
-#include "dense/voxel_table.h"
-
 namespace semslam {
 
 std::optional<Eigen::Vector3i> VoxelKey::Coordinates(const Eigen::Vector3d& p_world,
@@ -32,7 +30,7 @@ VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_
     const auto voxel = VoxelKey::Coordinates(positions[i].cast<double>(), voxel_size);
     if (!voxel) continue;
     const std::uint64_t key = VoxelKey::Pack(*voxel);
-    std::size_t slot = HashVoxelKey(key) & (num_slots - 1);
+    std::size_t slot = VoxelKey::Hash(key) & (num_slots - 1);
     while (slots_[slot] != 0 && entries_[slots_[slot] - 1].key != key) {
       slot = (slot + 1) & (num_slots - 1);
     }
@@ -52,7 +50,7 @@ std::optional<std::uint32_t> VoxelIndex::Find(const Eigen::Vector3d& p_world) co
 
 std::optional<std::uint32_t> VoxelIndex::FindKey(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t slot = HashVoxelKey(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
+  for (std::size_t slot = VoxelKey::Hash(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
     const Entry& entry = entries_[slots_[slot] - 1];
     if (entry.key == key) return entry.index;
   }

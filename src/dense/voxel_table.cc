@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "semslam/dense/voxel_index.h"
+
 namespace semslam {
 namespace {
 
@@ -96,7 +98,7 @@ Voxel& VoxelTable::Append(std::uint64_t key) {
 
 std::size_t VoxelTable::SlotOf(std::uint64_t key) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = HashVoxelKey(key) & mask;
+  std::size_t slot = VoxelKey::Hash(key) & mask;
   while (slots_[slot] != 0 && At(slots_[slot] - 1).key() != key) slot = (slot + 1) & mask;
   return slot;
 }

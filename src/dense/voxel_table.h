@@ -10,13 +10,6 @@
 
 namespace semslam {
 
-// Spreads neighbouring voxels over the table (the finaliser of SplitMix64).
-inline std::uint64_t HashVoxelKey(std::uint64_t key) {
-  key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  key = (key ^ (key >> 27)) * 0x94d049bb133111ebULL;
-  return key ^ (key >> 31);
-}
-
 // One observation's share of a voxel's sums. Everything is small enough that 2^17 observations of
 // the largest weight fit into 32 bits; the sums are taken modulo 2^32, so that subtracting undoes
 // adding whatever came between.

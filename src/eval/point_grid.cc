@@ -10,19 +10,6 @@
 #include "semslam/base/check.h"
 
 namespace semslam {
-namespace {
-
-// Neighbouring keys differ in a few bits: all of them have to reach all of the hash.
-std::size_t Hash(std::uint64_t key) {
-  key ^= key >> 33;
-  key *= 0xff51afd7ed558ccdULL;
-  key ^= key >> 33;
-  key *= 0xc4ceb9fe1a85ec53ULL;
-  return static_cast<std::size_t>(key ^ key >> 33);
-}
-
-}  // namespace
-
 PointGrid::PointGrid(std::span<const Eigen::Vector3f> points, double cell_size)
     : cell_size_(cell_size) {
   SEMSLAM_CHECK(cell_size > 0) << "cell_size = " << cell_size;
@@ -45,7 +32,7 @@ PointGrid::PointGrid(std::span<const Eigen::Vector3f> points, double cell_size)
   while (num_slots < 2 * cells_.size()) num_slots *= 2;
   slots_.assign(num_slots, 0);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    std::size_t slot = Hash(cells_[i].key) & (num_slots - 1);
+    std::size_t slot = VoxelKey::Hash(cells_[i].key) & (num_slots - 1);
     while (slots_[slot] != 0) slot = (slot + 1) & (num_slots - 1);
     slots_[slot] = static_cast<std::uint32_t>(i + 1);
   }
@@ -96,7 +83,7 @@ int PointGrid::Reach(double distance) const {
 
 const PointGrid::Cell* PointGrid::Find(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
-  for (std::size_t slot = Hash(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
+  for (std::size_t slot = VoxelKey::Hash(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
     const Cell& cell = cells_[slots_[slot] - 1];
     if (cell.key == key) return &cell;
   }

@@ -3,16 +3,15 @@
 
 #include "loop/loop_correction.h"
 
-#include <limits>
 #include <map>
 
 #include "semslam/mapping/appearance_update.h"
 #include "semslam/mapping/landmark_search.h"
 
+#include "loop/covisible_group.h"
+
 namespace semslam {
 namespace {
-
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 // What is copied out of the map.
 struct Snapshot {
@@ -24,12 +23,7 @@ struct Snapshot {
   std::vector<LandmarkCopy> loop_landmarks;  // Seen at the other end.
 };
 
-std::vector<KeyframeId> GroupOf(const Map& map, KeyframeId keyframe, int min_shared) {
-  std::vector<KeyframeId> group = map.CovisibleKeyframes(keyframe, min_shared, kAll);
-  group.push_back(keyframe);
-  return group;
-}
-
+// An edge between two keyframes as they stand in the snapshot.
 void AddEdge(KeyframeId a, KeyframeId b, Snapshot* snapshot) {
   const auto from = snapshot->node_of.find(a);
   const auto to = snapshot->node_of.find(b);
@@ -37,6 +31,10 @@ void AddEdge(KeyframeId a, KeyframeId b, Snapshot* snapshot) {
   const std::vector<Rigid3>& poses = snapshot->graph.T_world_node;
   snapshot->graph.edges.push_back(
       {from->second, to->second, poses[from->second].Inverse() * poses[to->second]});
+}
+
+void AddEdges(const LoopEdges& edges, Snapshot* snapshot) {
+  for (const auto& [a, b] : edges) AddEdge(a, b, snapshot);
 }
 
 // The essential graph: the spanning tree, earlier loops, and pairs that share many landmarks.
@@ -60,7 +58,7 @@ void AddEssentialGraph(const Map& map,
       if (covisible.num_shared >= min_shared) AddEdge(covisible.id, id, snapshot);
     }
   }
-  for (const auto& [a, b] : old_loops) AddEdge(a, b, snapshot);
+  AddEdges(old_loops, snapshot);
 }
 
 std::optional<Snapshot> TakeSnapshot(const Map& map,
@@ -95,11 +93,6 @@ std::vector<GroupHits> SearchLoopLandmarks(const ProjectionCamera& camera,
         {keyframe.id, FindLandmarks(camera, keyframe, snapshot.loop_landmarks, kSearch)});
   }
   return result;
-}
-
-// Ties the group to the place, by the group's corrected poses.
-void AddLoopEdges(const LoopEdges& edges, Snapshot* snapshot) {
-  for (const auto& [keyframe, place] : edges) AddEdge(keyframe, place, snapshot);
 }
 
 MapCorrection SolveGraph(const Snapshot& snapshot,
@@ -146,7 +139,7 @@ std::optional<LoopCorrection> CorrectLoop(const PinholeCamera& camera,
       result.edges.emplace_back(group.keyframe, match.place);
     }
   }
-  AddLoopEdges(result.edges, &*snapshot);
+  AddEdges(result.edges, &*snapshot);  // By the group's corrected poses.
   const MapCorrection correction = SolveGraph(*snapshot, T_world_old, options.pose_graph);
 
   std::vector<LandmarkId> touched;

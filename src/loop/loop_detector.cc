@@ -4,25 +4,22 @@
 #include "loop/loop_detector.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "semslam/map/similar_places.h"
 
+#include "loop/covisible_group.h"
+
 namespace semslam {
 namespace {
-
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 void SortUnique(std::vector<KeyframeId>* ids) {
   std::sort(ids->begin(), ids->end());
   ids->erase(std::unique(ids->begin(), ids->end()), ids->end());
 }
 
-// The keyframe, and those that share enough landmarks with it.
-std::vector<KeyframeId> GroupOf(const Map& map, KeyframeId keyframe, int min_shared) {
-  std::vector<KeyframeId> group = map.CovisibleKeyframes(keyframe, min_shared, kAll);
-  group.push_back(keyframe);
+std::vector<KeyframeId> SortedGroupOf(const Map& map, KeyframeId keyframe, int min_shared) {
+  std::vector<KeyframeId> group = GroupOf(map, keyframe, min_shared);
   SortUnique(&group);
   return group;
 }
@@ -71,7 +68,7 @@ std::vector<KeyframeId> LoopDetector::FindCandidates(const Map& map, KeyframeId 
   std::vector<Group> current;
   std::vector<KeyframeId> candidates;
   for (const KeyframeId place : FindSimilarPlaces(map, keyframe->words->vector, search)) {
-    Group group{GroupOf(map, place, options_.min_shared)};
+    Group group{SortedGroupOf(map, place, options_.min_shared)};
     group.length = LengthOfChain(group.members) + 1;
     if (group.length >= options_.num_consistent) candidates.push_back(place);
     current.push_back(std::move(group));

@@ -104,7 +104,6 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   Tracking::Result result = tracking_.Track(std::move(frame), load);
   if (std::exchange(trajectory_is_loaded_, false)) trajectory_.Write([](auto& e) { e.clear(); });
   last_time_ = image->time;
-  last_state_ = result.state;
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
   if (result.relocalized) events_.Write([](Events& e) { ++e.num_relocalizations; });
   if (result.state == TrackingState::kTracking) {
@@ -124,7 +123,7 @@ Tracking::Result System::Skipped(const RgbdImage& image) const {
   Log(LogLevel::kWarning, "frame skipped: expected a time after " + FormatTime(*last_time_) +
                               ", found " + FormatTime(image.time));
   Tracking::Result result;
-  result.state = last_state_;
+  result.state = tracking_.state();
   result.was_skipped = true;
   return result;
 }
@@ -162,10 +161,12 @@ void System::RethrowFailures() {
 }
 
 void System::LogNewLoops() {
-  const std::vector<LoopClosing::Loop> loops =
-      events_.Read([](const Events& e) { return e.loops; });
-  for (; num_loops_logged_ < loops.size(); ++num_loops_logged_) {
-    const LoopClosing::Loop& loop = loops[num_loops_logged_];
+  const std::vector<LoopClosing::Loop> loops = events_.Read([this](const Events& e) {
+    return std::vector(e.loops.begin() + static_cast<std::ptrdiff_t>(num_loops_logged_),
+                       e.loops.end());
+  });
+  num_loops_logged_ += loops.size();
+  for (const LoopClosing::Loop& loop : loops) {
     std::ostringstream text;
     text << "loop closed: keyframe " << loop.keyframe.value << " is at keyframe "
          << loop.place.value << ", was off by " << std::fixed << std::setprecision(3)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "semslam/base/check.h"
-#include "semslam/place/word_matcher.h"
 
 #include "tracking/frame_matching.h"
 
@@ -51,13 +50,6 @@ class PairCheck {
 
 }  // namespace
 
-// What is needed of a keyframe to recognise it.
-struct FrameLocator::Place {
-  std::shared_ptr<const Frame> frame;
-  std::shared_ptr<const BagOfWords> words;
-  std::vector<std::optional<TrackedPoint>> points;  // One a feature.
-};
-
 void FrameLocator::Options::Validate() const {
   SEMSLAM_CHECK(min_word_matches > 0) << min_word_matches;
   SEMSLAM_CHECK(min_pose_inliers > 0 && min_inliers > 0) << min_pose_inliers << ", " << min_inliers;
@@ -82,7 +74,12 @@ FrameLocator::FrameLocator(const Options& options,
 std::optional<TrackedFrame> FrameLocator::Locate(const std::shared_ptr<const Frame>& frame,
                                                  const BagOfWords& words,
                                                  KeyframeId place_id) const {
-  const std::optional<Place> place = CopyPlace(place_id);
+  const std::optional<KnownKeyframe> place =
+      map_.Read([&](const Map& map) -> std::optional<KnownKeyframe> {
+        const Keyframe* keyframe = map.FindKeyframe(place_id);
+        if (keyframe == nullptr) return std::nullopt;
+        return CopyKnownKeyframe(map, *keyframe);
+      });
   if (!place) return std::nullopt;
   std::optional<TrackedFrame> located = MatchPlace(frame, words, *place);
   if (!located) return std::nullopt;
@@ -95,31 +92,11 @@ std::optional<TrackedFrame> FrameLocator::Locate(const std::shared_ptr<const Fra
   return located;
 }
 
-std::optional<FrameLocator::Place> FrameLocator::CopyPlace(KeyframeId keyframe_id) const {
-  return map_.Read([&](const Map& map) -> std::optional<Place> {
-    const Keyframe* keyframe = map.FindKeyframe(keyframe_id);
-    if (keyframe == nullptr) return std::nullopt;
-    Place place{keyframe->frame, keyframe->words, {}};
-    place.points.resize(keyframe->landmarks.size());
-    for (std::size_t i = 0; i < place.points.size(); ++i) {
-      if (const std::optional<LandmarkId> id = keyframe->landmarks[i]) {
-        place.points[i] = TrackedPoint{id, map.landmark(*id).appearance.p_world};
-      }
-    }
-    return place;
-  });
-}
-
 // The pose from pairs with equal words: by consensus, then optimised.
 std::optional<TrackedFrame> FrameLocator::MatchPlace(const std::shared_ptr<const Frame>& frame,
                                                      const BagOfWords& words,
-                                                     const Place& place) const {
-  std::vector<std::uint8_t> has_landmark(place.points.size(), 0);
-  for (std::size_t i = 0; i < has_landmark.size(); ++i) has_landmark[i] = place.points[i] ? 1 : 0;
-  const BagOfWords place_words =
-      place.words ? *place.words : vocabulary_->Transform(place.frame->descriptors);
-  const std::vector<FeatureMatch> matches =
-      MatchByWords({*place.frame, place_words, has_landmark}, {*frame, words, {}}, {});
+                                                     const KnownKeyframe& place) const {
+  const std::vector<FeatureMatch> matches = MatchKnownKeyframe(place, *frame, words, *vocabulary_);
   if (static_cast<int>(matches.size()) < options_.min_word_matches) return std::nullopt;
 
   std::vector<Pair> pairs;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "semslam/optim/pose_optimizer.h"
+#include "semslam/place/word_matcher.h"
 
 namespace semslam {
 namespace {
@@ -32,6 +33,28 @@ float WindowSize(float view_cosine) {
 }
 
 }  // namespace
+
+KnownKeyframe CopyKnownKeyframe(const Map& map, const Keyframe& keyframe) {
+  KnownKeyframe copy{keyframe.frame, keyframe.words, {}};
+  copy.points.resize(keyframe.landmarks.size());
+  for (std::size_t i = 0; i < copy.points.size(); ++i) {
+    if (const std::optional<LandmarkId> id = keyframe.landmarks[i]) {
+      copy.points[i] = TrackedPoint{id, map.landmark(*id).appearance.p_world};
+    }
+  }
+  return copy;
+}
+
+std::vector<FeatureMatch> MatchKnownKeyframe(const KnownKeyframe& keyframe,
+                                             const Frame& frame,
+                                             const BagOfWords& words,
+                                             const Vocabulary& vocabulary) {
+  std::vector<std::uint8_t> has_point(keyframe.points.size(), 0);
+  for (std::size_t i = 0; i < has_point.size(); ++i) has_point[i] = keyframe.points[i] ? 1 : 0;
+  const BagOfWords keyframe_words =
+      keyframe.words ? *keyframe.words : vocabulary.Transform(keyframe.frame->descriptors);
+  return MatchByWords({*keyframe.frame, keyframe_words, has_point}, {frame, words, {}}, {});
+}
 
 TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera) {
   TrackedFrame tracked;

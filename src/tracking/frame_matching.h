@@ -4,14 +4,32 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "semslam/features/projection_matcher.h"
 #include "semslam/map/landmark_projection.h"
+#include "semslam/map/map.h"
 #include "semslam/optim/camera_model.h"
+#include "semslam/place/vocabulary.h"
 #include "semslam/tracking/tracked_frame.h"
 
 namespace semslam {
+
+// A keyframe copied out of the map, to be recognised in a frame.
+struct KnownKeyframe {
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const BagOfWords> words;          // Null: not looked up yet.
+  std::vector<std::optional<TrackedPoint>> points;  // One a feature.
+};
+KnownKeyframe CopyKnownKeyframe(const Map& map, const Keyframe& keyframe);
+
+// Pairs of the keyframe's features that have a point (query) and of the frame's that show the same
+// words. `words` are those of the frame.
+std::vector<FeatureMatch> MatchKnownKeyframe(const KnownKeyframe& keyframe,
+                                             const Frame& frame,
+                                             const BagOfWords& words,
+                                             const Vocabulary& vocabulary);
 
 // A frame at the given pose that shows nothing yet.
 TrackedFrame EmptyFrame(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera);

@@ -9,7 +9,6 @@
 
 #include "semslam/base/check.h"
 #include "semslam/map/similar_places.h"
-#include "semslam/place/word_matcher.h"
 
 #include "tracking/frame_matching.h"
 #include "tracking/new_points.h"
@@ -199,35 +198,15 @@ std::optional<TrackedFrame> Tracking::TrackWithMotion(
 
 std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const Frame>& frame,
                                                     KeyframeId keyframe_id) const {
-  struct Reference {
-    std::shared_ptr<const Frame> frame;
-    std::shared_ptr<const BagOfWords> words;
-    Rigid3 T_world_camera;
-    std::vector<std::optional<TrackedPoint>> points;
-  };
-  const std::optional<Reference> reference =
-      map_.Read([&](const Map& map) -> std::optional<Reference> {
+  const std::optional<KnownKeyframe> reference =
+      map_.Read([&](const Map& map) -> std::optional<KnownKeyframe> {
         const Keyframe* keyframe = NearestKeptKeyframe(map, keyframe_id);
         if (keyframe == nullptr) return std::nullopt;
-        Reference copy{keyframe->frame, keyframe->words, keyframe->T_world_camera, {}};
-        copy.points.resize(keyframe->landmarks.size());
-        for (std::size_t i = 0; i < copy.points.size(); ++i) {
-          if (const std::optional<LandmarkId> id = keyframe->landmarks[i]) {
-            copy.points[i] = TrackedPoint{id, map.landmark(*id).appearance.p_world};
-          }
-        }
-        return copy;
+        return CopyKnownKeyframe(map, *keyframe);
       });
   if (!reference) return std::nullopt;
-
-  std::vector<std::uint8_t> has_landmark(reference->points.size(), 0);
-  for (std::size_t i = 0; i < has_landmark.size(); ++i)
-    has_landmark[i] = reference->points[i] ? 1 : 0;
-  const BagOfWords reference_words =
-      reference->words ? *reference->words : vocabulary_->Transform(reference->frame->descriptors);
-  const BagOfWords words = vocabulary_->Transform(frame->descriptors);
-  const std::vector<FeatureMatch> matches =
-      MatchByWords({*reference->frame, reference_words, has_landmark}, {*frame, words, {}}, {});
+  const std::vector<FeatureMatch> matches = MatchKnownKeyframe(
+      *reference, *frame, vocabulary_->Transform(frame->descriptors), *vocabulary_);
   if (static_cast<int>(matches.size()) < options_.min_reference_matches) return std::nullopt;
 
   TrackedFrame matched = EmptyFrame(frame, last_.T_world_camera);

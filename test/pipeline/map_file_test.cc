@@ -13,6 +13,7 @@
 #include "semslam/base/random.h"
 #include "semslam/pipeline/system.h"
 
+#include "pipeline/same_poses.h"
 #include "pipeline/wall_camera.h"
 #include "support/files.h"
 #include "support/matchers.h"
@@ -20,6 +21,7 @@
 namespace semslam {
 namespace {
 
+using testing::ExpectSameBits;
 using testing::Rigid3Near;
 using testing::WallCamera;
 
@@ -44,15 +46,6 @@ class BookDetector : public Detector {
  private:
   ClassTable classes_;
 };
-
-void ExpectSamePoses(const std::vector<System::TrackedPose>& a,
-                     const std::vector<System::TrackedPose>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].time, b[i].time);
-    EXPECT_EQ(a[i].T_world_camera.ToMatrix(), b[i].T_world_camera.ToMatrix()) << i;
-  }
-}
 
 class MapFileTest : public ::testing::Test {
  protected:
@@ -89,8 +82,8 @@ TEST_F(MapFileTest, LoadedAndShutDownGivesTheSameResults) {
   const auto loaded = MakeSystem();
   loaded->LoadMap(path_);
   const PointCloudMapping::Result result = loaded->Shutdown();
-  ExpectSamePoses(loaded->CameraTrajectory(), saved->CameraTrajectory());
-  ExpectSamePoses(loaded->KeyframeTrajectory(), saved->KeyframeTrajectory());
+  ExpectSameBits(loaded->CameraTrajectory(), saved->CameraTrajectory());
+  ExpectSameBits(loaded->KeyframeTrajectory(), saved->KeyframeTrajectory());
   EXPECT_EQ(result.cloud.positions, result_.cloud.positions);
   EXPECT_EQ(result.cloud.colors, result_.cloud.colors);
   EXPECT_EQ(result.segmentation.segment_of_point, result_.segmentation.segment_of_point);
@@ -139,7 +132,7 @@ TEST_F(MapFileTest, LocalisationLeavesTheMapAsItIs) {
     EXPECT_FALSE(result.new_keyframe);
   }
   system->Shutdown();
-  ExpectSamePoses(system->KeyframeTrajectory(), saved->KeyframeTrajectory());
+  ExpectSameBits(system->KeyframeTrajectory(), saved->KeyframeTrajectory());
   EXPECT_EQ(system->CameraTrajectory().size(), 30u);
 }
 

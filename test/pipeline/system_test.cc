@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/same_poses.h"
 #include "pipeline/wall_camera.h"
 #include "support/label_detector.h"
 #include "support/matchers.h"
@@ -16,6 +17,7 @@
 namespace semslam {
 namespace {
 
+using testing::ExpectSameBits;
 using testing::RecordedClip;
 using testing::Rigid3Near;
 using testing::WallCamera;
@@ -77,15 +79,6 @@ class RenderedDesk : public ::testing::Test {
     return run;
   }
 };
-
-void ExpectSameBits(const std::vector<System::TrackedPose>& a,
-                    const std::vector<System::TrackedPose>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].time, b[i].time);
-    EXPECT_EQ(a[i].T_world_camera.ToMatrix(), b[i].T_world_camera.ToMatrix()) << "pose " << i;
-  }
-}
 
 TEST_F(RenderedDesk, GivesTheSameBitsTwiceWhenInline) {
   const Outcome first = RunAll(Threading::kInline);

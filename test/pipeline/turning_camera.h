@@ -10,11 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "semslam/base/random.h"
-#include "semslam/camera/rgbd_image.h"
-#include "semslam/config/settings.h"
-#include "semslam/features/frame_builder.h"
-#include "semslam/place/vocabulary_training.h"
+#include "pipeline/small_camera.h"
 
 namespace semslam::testing {
 
@@ -22,18 +18,14 @@ namespace semslam::testing {
 // sees the same again. Its settings give a focal length that is 1 % too large, so that the turn
 // seems 1 % too small, and there is something to be corrected when the loop is closed. All work in
 // the caller's thread.
-class TurningCamera {
+class TurningCamera : public SmallCamera {
  public:
-  static constexpr int kWidth = 320;
-  static constexpr int kHeight = 240;
   static constexpr int kNumFramesATurn = 60;
-  static constexpr double kFocalLength = 260;
   static constexpr double kFocalLengthError = 1.01;
   static constexpr double kRadius = 1.6;  // Metres.
 
   TurningCamera() {
     cv::setNumThreads(1);
-    constexpr int kSquare = 7;
     Random random(3);
     // A pixel of the panorama is a pixel in the middle of the image. Twice around.
     const int turn = kSquare * static_cast<int>(2 * std::numbers::pi * kFocalLength / kSquare);
@@ -41,8 +33,7 @@ class TurningCamera {
     panorama_ = cv::Mat(2 * kHeight, 2 * turn, CV_8UC3);
     for (int y = 0; y < panorama_.rows; y += kSquare) {
       for (int x = 0; x < turn; x += kSquare) {
-        const auto value = static_cast<double>(random.Index(200));
-        const cv::Scalar color(value, value + 20, value + 40);
+        const cv::Scalar color = RandomColor(random);
         const cv::Rect all(0, 0, panorama_.cols, panorama_.rows);
         panorama_(cv::Rect(x, y, kSquare, kSquare) & all).setTo(color);
         panorama_(cv::Rect(x + turn, y, kSquare, kSquare) & all).setTo(color);
@@ -60,34 +51,13 @@ class TurningCamera {
   }
 
   static Settings MakeSettings() {
-    Settings settings;
-    settings.camera = {.width = kWidth,
-                       .height = kHeight,
-                       .fx = kFocalLength * kFocalLengthError,
-                       .fy = kFocalLength * kFocalLengthError,
-                       .cx = 0.5 * (kWidth - 1),
-                       .cy = 0.5 * (kHeight - 1)};
-    settings.bf = 80;
-    settings.orb.num_features = 600;
-    settings.orb.num_levels = 4;
-    settings.tracking.min_features_to_start = 100;
-    settings.tracking.keyframes.changed_ratio = 0.9;
-    settings.tracking.keyframes.changed_ratio_at_start = 0.9;
-    settings.cloud.pixel_stride = 8;
-    settings.voxels.voxel_size = 0.05;
-    settings.segmentation.num_threads = 1;
-    return settings;
+    return SmallCamera::MakeSettings(kFocalLength * kFocalLengthError, 80, 600);
   }
 
   std::shared_ptr<const Vocabulary> Train() const {
-    const Settings settings = MakeSettings();
-    const FrameBuilder builder(settings.orb, PinholeCamera(settings.camera), settings.bf);
-    std::vector<std::vector<Descriptor>> images;
-    for (int number = 0; number < kNumFramesATurn; number += 10) {
-      images.push_back(builder.Build(*Image(number)).descriptors);
-    }
-    return std::make_shared<const Vocabulary>(
-        TrainVocabulary(images, {.branching = 8, .depth = 3, .max_iterations = 4}, 1));
+    std::vector<RgbdImagePtr> images;
+    for (int number = 0; number < kNumFramesATurn; number += 10) images.push_back(Image(number));
+    return SmallCamera::Train(MakeSettings(), images, 8);
   }
 
  private:

@@ -25,6 +25,12 @@ struct VoxelKey {
     const auto shifted = [](int value) { return static_cast<std::uint64_t>(value + kLimit); };
     return shifted(voxel.x()) << (2 * kBits) | shifted(voxel.y()) << kBits | shifted(voxel.z());
   }
+  // Spreads neighbouring voxels over a hash table (the finaliser of SplitMix64).
+  static std::uint64_t Hash(std::uint64_t key) {
+    key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    key = (key ^ (key >> 27)) * 0x94d049bb133111ebULL;
+    return key ^ (key >> 31);
+  }
 };
 
 // Finds the point of a cloud (at most one a voxel) that lies at a place in the world. Immutable

@@ -156,8 +156,7 @@ class System {
   std::stop_source break_off_;  // The bundle adjustment of the whole map.
   Guarded<Events> events_;
   std::size_t num_loops_logged_ = 0;
-  std::optional<TimeNs> last_time_;  // Of the newest frame.
-  TrackingState last_state_ = TrackingState::kNotInitialized;
+  std::optional<TimeNs> last_time_;    // Of the newest frame.
   bool trajectory_is_loaded_ = false;  // From a map file, until the first frame.
   bool is_shut_down_ = false;
   Guarded<std::vector<TrajectoryEntry>> trajectory_;

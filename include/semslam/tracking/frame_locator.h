@@ -15,6 +15,8 @@
 
 namespace semslam {
 
+struct KnownKeyframe;
+
 // Finds a frame's pose at a place of the map without knowing where it came from: for a camera that
 // was lost, and to verify loops (Mur-Artal, Montiel, Tardos 2015, sections V-C and VII-B). Where
 // they solve for the pose from pixels (PnP), here the frame's own depth gives both sides in three
@@ -44,11 +46,9 @@ class FrameLocator {
                                      KeyframeId place) const;
 
  private:
-  struct Place;
-  std::optional<Place> CopyPlace(KeyframeId keyframe) const;
   std::optional<TrackedFrame> MatchPlace(const std::shared_ptr<const Frame>& frame,
                                          const BagOfWords& words,
-                                         const Place& place) const;
+                                         const KnownKeyframe& place) const;
   int SearchNeighbourhood(KeyframeId place, TrackedFrame* located) const;
 
   const Options options_;

@@ -79,6 +79,8 @@ class Tracking {
   // up. Before the first frame; without keyframes in the map nothing changes.
   void StartInLoadedMap();
 
+  TrackingState state() const { return state_; }
+
  private:
   // A frame that was found in the map.
   struct Located {
