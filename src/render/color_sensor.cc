@@ -87,7 +87,8 @@ class Smear {
 // A pixel's B, G, R, 0.
 Float4 PixelAt(const cv::Vec3f* row, int column) {
   const float* values = row[column].val;
-  const __m128 blue_green = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(values)));
+  const __m128 blue_green =
+      _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(values)));
   return Float4(_mm_movelh_ps(blue_green, _mm_load_ss(values + 2)));
 }
 
