@@ -59,10 +59,18 @@ function(semslam_add_tests name)
   if(ARG_LABELS MATCHES "^(unit|threads)$")
     set(serial FALSE)
   endif()
-  if(ARG_WHOLE OR SEMSLAM_SANITIZE)
-    # A sanitized process needs about a second to start: too much for each of a thousand cases.
+  if(SEMSLAM_SANITIZE)
+    # Halves of programs: a sanitized process needs about a second to start, too much for each of a
+    # thousand cases.
+    foreach(shard 0 1)
+      add_test(NAME ${name}_${shard} COMMAND ${name})
+      set_tests_properties(${name}_${shard} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+  elseif(ARG_WHOLE)
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 RUN_SERIAL ${serial})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+      RUN_SERIAL ${serial})
   else()
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${serial})
