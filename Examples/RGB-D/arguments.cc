@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/io/detection_recorder.h"
 #include "semslam/semantics/darknet_detector.h"
 #include "semslam/semantics/recorded_detector.h"
 
@@ -69,9 +70,14 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--score", arguments.score, "Least score of a detection (default: 0.25)")
       ->type_name("S")
       ->check(CheckScore);
+  CLI::Option* save_detections =
+      app.add_flag("--save-detections", arguments.save_detections,
+                   "Write the keyframes with their boxes, and what --detections reads, into the "
+                   "folder detections of the results");
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
-      ->excludes(detections);
+      ->excludes(detections)
+      ->excludes(save_detections);
   CLI::Option* load =
       app.add_option("--load-map", arguments.load_map, "Go on from a map that --save-map wrote")
           ->type_name("FILE");
@@ -89,34 +95,9 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->excludes(sequential);
 }
 
-}  // namespace
-
-ParseResult ParseArguments(int argc, char** argv) {
-  ParseResult result;
-  CLI::App app(
-      "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
-      "rgbd_tum");
-  app.set_version_flag("--version", "rgbd_tum " SEMSLAM_VERSION);
-  app.formatter(std::make_shared<HelpFormatter>());
-  AddPositionals(app, result.arguments);
-  AddOptions(app, result.arguments);
-  app.footer(
-      "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "
-      "of the frames.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help_or_version) {
-    result.exit_code = app.exit(help_or_version);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "rgbd_tum: " << Printable(error.what()) << " (--help shows the usage)\n";
-    result.exit_code = 1;
-  }
-  return result;
-}
-
-std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
-                                                const semslam::DetectorSettings& settings) {
-  if (arguments.no_semantics) return nullptr;
+// Null for none.
+std::unique_ptr<semslam::Detector> ChosenDetector(const Arguments& arguments,
+                                                  const semslam::DetectorSettings& settings) {
   const std::vector<std::string>& interest =
       arguments.classes.empty() ? settings.classes : arguments.classes;
   const auto score = static_cast<float>(arguments.score.value_or(settings.score_threshold));
@@ -148,4 +129,47 @@ std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
   options.input_size = settings.input_size;
   return std::make_unique<semslam::DarknetDetector>(
       options, semslam::ClassTable::FromFile(names).WithInterest(interest));
+}
+
+}  // namespace
+
+ParseResult ParseArguments(int argc, char** argv) {
+  ParseResult result;
+  CLI::App app(
+      "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
+      "rgbd_tum");
+  app.set_version_flag("--version", "rgbd_tum " SEMSLAM_VERSION);
+  app.formatter(std::make_shared<HelpFormatter>());
+  AddPositionals(app, result.arguments);
+  AddOptions(app, result.arguments);
+  app.footer(
+      "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "
+      "of the frames.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    result.exit_code = app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "rgbd_tum: " << Printable(error.what()) << " (--help shows the usage)\n";
+    result.exit_code = 1;
+  }
+  return result;
+}
+
+std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
+                                                const semslam::DetectorSettings& settings) {
+  if (arguments.no_semantics) return nullptr;
+  std::unique_ptr<semslam::Detector> detector = ChosenDetector(arguments, settings);
+  if (!arguments.save_detections) return detector;
+  if (detector == nullptr) {
+    throw semslam::InputError(
+        "--save-detections: nothing detects: expected --network or --detections");
+  }
+  const std::filesystem::path folder = arguments.output / "detections";
+  std::error_code ignored;  // Then they are two.
+  if (std::filesystem::equivalent(folder, arguments.detections, ignored)) {
+    throw semslam::InputError("--save-detections: " + folder.string() +
+                              " would be overwritten while it is read by --detections");
+  }
+  return std::make_unique<semslam::DetectionRecorder>(std::move(detector), folder);
 }
