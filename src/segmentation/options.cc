@@ -37,6 +37,8 @@ void Check(const SupervoxelOptions& options) {
           "supervoxels.seed_spacing", options.seed_spacing, "the size of a voxel at least");
   RequireNotNegative("supervoxels.spatial_weight", options.spatial_weight);
   RequireNotNegative("supervoxels.normal_weight", options.normal_weight);
+  RequireNotNegative("supervoxels.offset_weight", options.offset_weight);
+  RequireNotNegative("supervoxels.offset_tolerance", options.offset_tolerance);
   Require(options.num_passes >= 1, "supervoxels.num_passes", options.num_passes, "1 at least");
 }
 

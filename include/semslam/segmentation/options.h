@@ -15,6 +15,8 @@ struct SupervoxelOptions {
   double seed_spacing = 0.08;       // Metres between the seeds of supervoxels.
   double spatial_weight = 0.4;      // Of the distance in seed spacings.
   double normal_weight = 1.0;       // Of one minus the cosine between the normals.
+  double offset_weight = 2.4;       // Of the distance from the tangent plane, in seed spacings,
+  double offset_tolerance = 0.004;  // as far as it is more than noise, metres.
   int num_passes = 2;               // Each further pass grows again from the centres of the last.
   std::size_t min_voxels = 8;       // Smaller supervoxels are left to their neighbours.
 };
