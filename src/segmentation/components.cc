@@ -112,21 +112,33 @@ void JoinAcrossGaps(const PatchGraph& graph,
                     const ComponentOptions& options,
                     DisjointSets& sets,
                     std::vector<bool>& is_structural) {
+  constexpr double kMinShare = 0.9;
   const std::vector<double> areas = AreasOf(graph, sets);
-  // By label, then representative.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> pieces;
+  struct Piece {
+    std::vector<std::uint32_t> patches;
+    double area = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Piece> pieces;  // By label, representative.
   for (std::uint32_t i = 0; i < areas.size(); ++i) {
-    const std::uint32_t piece = sets.Find(i);
-    if (plane_labels[i] == 0 || areas[piece] < options.min_piece_area) continue;
-    pieces[{plane_labels[i], piece}].push_back(i);
+    if (plane_labels[i] == 0) continue;
+    Piece& piece = pieces[{plane_labels[i], sets.Find(i)}];
+    piece.patches.push_back(i);
+    piece.area += graph.patches[i].area;
   }
+  std::erase_if(pieces, [&](const auto& item) {
+    // Faces of things are no pieces of a wall.
+    const std::uint32_t representative = item.first.second;
+    const bool is_face =
+        !is_structural[representative] && item.second.area < kMinShare * areas[representative];
+    return is_face || item.second.area < options.min_piece_area;
+  });
   const std::vector<bool> was_structural = is_structural;
   for (auto a = pieces.begin(); a != pieces.end(); ++a) {
     for (auto b = std::next(a); b != pieces.end() && b->first.first == a->first.first; ++b) {
       const std::uint32_t first = a->first.second;
       const std::uint32_t second = b->first.second;
       if (!was_structural[first] && !was_structural[second]) continue;
-      if (GapBetween(graph, a->second, b->second) > options.max_gap) continue;
+      if (GapBetween(graph, a->second.patches, b->second.patches) > options.max_gap) continue;
       sets.Join(first, second);
       is_structural[first] = is_structural[second] = true;
     }

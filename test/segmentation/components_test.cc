@@ -166,6 +166,15 @@ TEST(Components, FarAndSmallPiecesOfAPlaneAreNotTheWall) {
             2U);
 }
 
+TEST(Components, ABoxWithAFaceInThePlaneOfTheWallIsNotTheWall) {
+  PatchGraph graph = DividedWall(0.6, 0.05);
+  graph.patches.push_back(MakePatch({0.75, 0, -0.05}, {1, 0, 0}, 0.05));
+  graph.edges.push_back({2, 3, 10});
+  const Components components = FindComponents(graph, {1, 1, 1, 2}, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 2U);
+  EXPECT_FALSE(components.components[1].is_structural);
+}
+
 TEST(SurfaceGrowth, FollowsAWarpedPlaneUpToItsTolerance) {
   std::vector<Patch> patches;  // Falls away by 6 mm a patch.
   for (int i = 0; i < 16; ++i) {
