@@ -134,7 +134,7 @@ void FusionOptions::Validate() const {
   require(min_confidence >= 0 && min_confidence <= 1, "expected min_confidence in [0, 1]");
   require(min_evidence >= 0, "expected min_evidence >= 0");
   require(min_shared_share > 0 && min_shared_share <= 1, "expected 0 < min_shared_share <= 1");
-  require(max_part_gap >= 0, "expected max_part_gap >= 0");
+  require(max_part_gap >= 0 && max_relative_part_gap >= 0, "expected part gaps of at least 0");
   require(max_object_shift >= 0, "expected max_object_shift >= 0");
 }
 
