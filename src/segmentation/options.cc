@@ -69,6 +69,13 @@ void Check(const PlaneAssignmentOptions& options) {
   RequireNotNegative("assignment.max_sweeps", options.max_sweeps);
 }
 
+void Check(const ReliefOptions& options) {
+  RequirePositive("relief.min_height", options.min_height);
+  RequireNotNegative("relief.noise_factor", options.noise_factor);
+  RequirePositive("relief.reference_radius", options.reference_radius);
+  RequireNotNegative("relief.min_area", options.min_area);
+}
+
 void Check(const ComponentOptions& options) {
   RequireNotNegative("components.concavity_tolerance", options.concavity_tolerance);
   RequireNotNegative("components.step_tolerance", options.step_tolerance);
@@ -89,6 +96,7 @@ void Segmenter::Options::Validate() const {
   Check(planes);
   Check(selection);
   Check(assignment);
+  Check(relief);
   Check(components);
   Require(num_threads >= 0, "num_threads", num_threads, "0 or more");
 }

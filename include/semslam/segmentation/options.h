@@ -30,9 +30,10 @@ struct PlaneHypothesisOptions {
   int max_ransac_planes = 1000;    // From random triples of patches.
   int num_ransac_trials = 20000;
   std::uint64_t seed = 1;
-  double merge_angle = 0.0175;    // Cell of near-duplicates, radians.
-  double merge_distance = 0.025;  // The same, metres.
-  std::size_t max_planes = 500;   // The best supported stay.
+  double merge_angle = 0.0175;   // Cell of near-duplicates, radians.
+  double merge_distance = 0.01;  // The same, metres; not above the tolerance, or of a wall and a
+                                 // whiteboard on it one is lost.
+  std::size_t max_planes = 500;  // The best supported stay.
 };
 
 // Step 4: which planes explain the scene (Gorelick et al., "Submodularization for binary pairwise
@@ -52,6 +53,14 @@ struct PlaneAssignmentOptions {
   double smoothness = 0.5;         // Of two labels on an edge, in tolerances.
   double min_smooth_cosine = 0.5;  // Neighbours whose normals differ more do not pull.
   int max_sweeps = 10;
+};
+
+// Between steps 5 and 6: what rises from a large plane is no part of it.
+struct ReliefOptions {
+  double min_height = 0.004;       // Of a thing over the surface it lies on, metres, and
+  double noise_factor = 3;         // in standard deviations of the surface's own roughness.
+  double reference_radius = 0.25;  // Of the surface a height is measured from, metres.
+  double min_area = 0.002;         // Of a thing that nothing else tells of, square metres.
 };
 
 // Step 6: components (Stein et al., "Object partitioning using local convexity", CVPR 2014).
