@@ -13,6 +13,7 @@
 #include "semslam/base/error.h"
 #include "semslam/base/guarded.h"
 #include "semslam/base/stopwatch.h"
+#include "semslam/live/device_list.h"
 
 #include "live/arrivals.h"
 #include "live/frame_images.h"
@@ -45,11 +46,7 @@ std::vector<CameraIdentity> CamerasPluggedIn() {
 
 std::string ChooseCamera(const std::string& wanted) {
   const std::vector<CameraIdentity> cameras = CamerasPluggedIn();
-  if (cameras.empty()) {
-    throw InputError(
-        "no camera found: is it plugged in, at a port that gives it power, and does `lsusb` list "
-        "it? Then unplug it and plug it in again");
-  }
+  if (cameras.empty()) throw InputError(kNoCameraFound);
   if (wanted.empty()) return cameras.front().uri;
   std::string found;
   for (const CameraIdentity& camera : cameras) {

@@ -26,6 +26,11 @@ struct OpenNi2Device {
   bool can_register = false;  // Depth to colour, by itself.
 };
 
+// What to tell, and to do, if there is none.
+inline constexpr char kNoCameraFound[] =
+    "no camera found: is it plugged in, at a port that gives it power, and does lsusb list it? "
+    "Then unplug it and plug it in again";
+
 // All cameras that are plugged in, opened for a moment to ask what they can do. Throws InputError
 // if OpenNI2 itself does not work.
 std::vector<OpenNi2Device> ListOpenNi2Devices();

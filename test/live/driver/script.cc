@@ -44,7 +44,8 @@ bool Script::IsOn(const std::string& kind, double time) const {
 
 Script ReadScript(const std::filesystem::path& path) {
   Script script;
-  std::ifstream file(path);
+  std::ifstream file(path);  // OpenNI2 loads drivers in another working folder: an absolute path.
+  if (!file) throw std::runtime_error(path.string() + ": no such script");
   for (std::string line; std::getline(file, line);) {
     std::istringstream values(line);
     std::string key;
