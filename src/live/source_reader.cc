@@ -53,7 +53,7 @@ OpenNi2Source::Reader::Reader(Options options)
 }
 
 std::optional<RgbdImage> OpenNi2Source::Reader::Next() {
-  while (session_ && !IsStopped()) {
+  while (session_ && !session_->is_at_end() && !IsStopped()) {
     try {
       std::optional<RgbdImage> image = Step();
       if (!image) continue;
