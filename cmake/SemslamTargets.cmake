@@ -36,11 +36,13 @@ function(semslam_add_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
-# semslam_add_tests(NAME SOURCES file_test.cc ... DEPENDS targets ... [LABELS unit] [TIMEOUT 60])
-# One test program of GoogleTest cases; each case is a ctest test. One label: unit, threads (also run
-# under the thread sanitizer), integration, dataset (needs real clips).
+# semslam_add_tests(NAME SOURCES file_test.cc ... DEPENDS targets ... [LABELS unit] [TIMEOUT 60]
+#                   [WHOLE])
+# One test program of GoogleTest cases; each case is a ctest test, or with WHOLE the program is one:
+# where the cases share something costly. One label: unit, threads (also run under the thread
+# sanitizer), integration, dataset (needs real clips).
 function(semslam_add_tests name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -57,8 +59,22 @@ function(semslam_add_tests name)
   if(ARG_LABELS MATCHES "^(unit|threads)$")
     set(serial FALSE)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${serial})
+  if(SEMSLAM_SANITIZE)
+    # Halves of programs: a sanitized process needs about a second to start, too much for each of a
+    # thousand cases.
+    foreach(shard 0 1)
+      add_test(NAME ${name}_${shard} COMMAND ${name})
+      set_tests_properties(${name}_${shard} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+  elseif(ARG_WHOLE)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+      RUN_SERIAL ${serial})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${serial})
+  endif()
   semslam_collect_sanitized_tests(${name} ${ARG_LABELS})
 endfunction()
 

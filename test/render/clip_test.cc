@@ -174,6 +174,37 @@ TEST(RenderedClip, DepthAndLabelsAreThoseOfAnExhaustiveSearch) {
   EXPECT_LE(num_wrong, 1);  // A ray within a rounding error of an edge may go either way.
 }
 
+// Where depth jumps near a border between two labels: how often the border is between the same two
+// pixels, with the labels taken `shift` pixels to the right.
+double ShareOfJumpsOnLabelBorders(const RenderedFrame& frame, int shift) {
+  constexpr double kJump = 0.05;  // m; no surface slopes as much within a pixel at this range.
+  constexpr int kReach = 3;       // Pixels.
+  const cv::Mat& depth = frame.ideal.depth;
+  int num_jumps = 0;
+  int num_on_borders = 0;
+  for (int y = 0; y < depth.rows; ++y) {
+    const auto* z = depth.ptr<double>(y);
+    const auto* label = frame.ideal.labels.ptr<std::uint16_t>(y) + shift;
+    for (int x = kReach; x + kReach + shift < depth.cols; ++x) {
+      if (std::abs(z[x] - z[x - 1]) < kJump) continue;
+      const auto differs = [&](int i) { return label[i] != label[i - 1]; };
+      bool is_near_a_border = false;
+      for (int i = x - kReach + 1; i < x + kReach; ++i) is_near_a_border |= differs(i);
+      if (!is_near_a_border) continue;  // A thing before itself.
+      ++num_jumps;
+      num_on_borders += differs(x) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(num_jumps, 500);
+  return static_cast<double>(num_on_borders) / num_jumps;
+}
+
+TEST(RenderedClip, LabelsChangeWhereDepthJumps) {
+  const RenderedFrame frame = RenderedClip(CleanDeskClipOptions(30)).Frame(20);
+  EXPECT_GT(ShareOfJumpsOnLabelBorders(frame, 0), 0.97);  // The rest: a thing before itself.
+  EXPECT_LT(ShareOfJumpsOnLabelBorders(frame, 1), 0.5);   // A pixel off would be noticed.
+}
+
 TEST(RenderedClip, CoveredFramesAreDarkNoiseWithoutDepth) {
   RenderedClip::Options options = testing::SmallDeskClipOptions(6);
   const RenderedClip open(options);

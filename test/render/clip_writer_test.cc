@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/render/clip_writer.h"
 
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,27 +21,43 @@
 namespace semslam {
 namespace {
 
-using testing::DeskClipOptions;
 using testing::InputErrorOf;
 using testing::ReadAll;
 using testing::Rigid3Near;
+using testing::SmallDeskClipOptions;
 using testing::TemporaryFolder;
 
 // A desk of two frames, written into a folder.
+struct WrittenClip {
+  WrittenClip() { WriteClip(clip, folder.path(), {}); }
+
+  TemporaryFolder folder;
+  RenderedClip clip = RenderedClip(SmallDeskClipOptions(2));
+};
+
+// Written once for all that only read it.
 class ClipWriterTest : public ::testing::Test {
  protected:
-  ClipWriterTest() : clip_(DeskClipOptions(2)) { WriteClip(clip_, folder_.path(), {}); }
+  static void SetUpTestSuite() { written_ = new WrittenClip; }
+  static void TearDownTestSuite() {
+    delete written_;
+    written_ = nullptr;
+  }
 
-  TemporaryFolder folder_;
-  RenderedClip clip_;
+  static const RenderedClip& clip() { return written_->clip; }
+  static const std::filesystem::path& folder() { return written_->folder.path(); }
+
+ private:
+  static inline const WrittenClip* written_ = nullptr;
 };
 
 TEST_F(ClipWriterTest, TheFolderReadsBackAsTheClip) {
-  TumDataset dataset(folder_.path(), folder_.path() / "associations.txt", {});
+  TumDataset dataset(folder(), folder() / "associations.txt",
+                     {.width = clip().camera().width(), .height = clip().camera().height()});
   for (std::size_t i = 0; i < 2; ++i) {
     const std::optional<RgbdImage> read = dataset.Next();
     ASSERT_TRUE(read);
-    const RgbdImage expected = clip_.Image(i);
+    const RgbdImage expected = clip().Image(i);
     EXPECT_EQ(read->time, expected.time);
     EXPECT_EQ(cv::norm(read->color, expected.color, cv::NORM_INF), 0);
     EXPECT_LT(cv::norm(read->depth, expected.depth, cv::NORM_INF), 1e-6);
@@ -48,39 +65,38 @@ TEST_F(ClipWriterTest, TheFolderReadsBackAsTheClip) {
 }
 
 TEST_F(ClipWriterTest, GroundTruthIsTheCamerasPath) {
-  const Trajectory truth = ReadTrajectory(folder_.path() / "groundtruth.txt");
+  const Trajectory truth = ReadTrajectory(folder() / "groundtruth.txt");
   ASSERT_EQ(truth.size(), 2U);
-  EXPECT_EQ(truth[1].time, clip_.Time(1));
-  EXPECT_THAT(truth[1].T_world_camera, Rigid3Near(clip_.T_world_camera(1), 1e-8, 1e-8));
+  EXPECT_EQ(truth[1].time, clip().Time(1));
+  EXPECT_THAT(truth[1].T_world_camera, Rigid3Near(clip().T_world_camera(1), 1e-8, 1e-8));
 }
 
 TEST_F(ClipWriterTest, SettingsAreOfTheClipsCamera) {
-  const Settings settings = LoadSettings(folder_.path() / "settings.yaml");
-  EXPECT_DOUBLE_EQ(settings.camera.fx, clip_.camera().fx());
-  EXPECT_DOUBLE_EQ(settings.camera.k3, clip_.camera().parameters().k3);
+  const Settings settings = LoadSettings(folder() / "settings.yaml");
+  EXPECT_DOUBLE_EQ(settings.camera.fx, clip().camera().fx());
+  EXPECT_DOUBLE_EQ(settings.camera.k3, clip().camera().parameters().k3);
   EXPECT_DOUBLE_EQ(settings.depth_factor, 5000);
 }
 
 TEST_F(ClipWriterTest, LabelsNameInstancesOfTheList) {
-  const cv::Mat labels =
-      cv::imread((folder_.path() / "labels" / (FormatTime(clip_.Time(0)) + ".png")).string(),
-                 cv::IMREAD_UNCHANGED);
+  const cv::Mat labels = cv::imread(
+      (folder() / "labels" / (FormatTime(clip().Time(0)) + ".png")).string(), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(labels.type(), CV_16UC1);
-  EXPECT_EQ(cv::norm(labels, clip_.Frame(0).ideal.labels, cv::NORM_INF), 0);
-  const auto json = nlohmann::json::parse(ReadAll(folder_.path() / "instances.json"));
-  ASSERT_EQ(json["instances"].size(), clip_.instances().size());
+  EXPECT_EQ(cv::norm(labels, clip().Frame(0).ideal.labels, cv::NORM_INF), 0);
+  const auto json = nlohmann::json::parse(ReadAll(folder() / "instances.json"));
+  ASSERT_EQ(json["instances"].size(), clip().instances().size());
   EXPECT_EQ(json["instances"][4]["id"], 5);
-  EXPECT_EQ(json["instances"][4]["class"], clip_.instances()[4].class_name);
+  EXPECT_EQ(json["instances"][4]["class"], clip().instances()[4].class_name);
 }
 
 TEST_F(ClipWriterTest, DetectionsNameClassesOfTheirList) {
-  std::istringstream names(ReadAll(folder_.path() / "detections" / "classes.names"));
+  std::istringstream names(ReadAll(folder() / "detections" / "classes.names"));
   std::string name;
   int num_names = 0;
   while (std::getline(names, name)) ++num_names;
   EXPECT_EQ(num_names, 5);
   std::istringstream lines(
-      ReadAll(folder_.path() / "detections" / (FormatTime(clip_.Time(0)) + ".txt")));
+      ReadAll(folder() / "detections" / (FormatTime(clip().Time(0)) + ".txt")));
   int index = 0;
   double cx = 0;
   double cy = 0;
@@ -100,25 +116,27 @@ TEST_F(ClipWriterTest, DetectionsNameClassesOfTheirList) {
   EXPECT_GE(num_lines, 3);
 }
 
-TEST_F(ClipWriterTest, AnEarlierClipIsReplaced) {
-  const RenderedClip shorter(testing::SmallDeskClipOptions(1));
-  WriteClip(shorter, folder_.path(), {});
-  EXPECT_EQ(ReadTrajectory(folder_.path() / "groundtruth.txt").size(), 1U);
-  EXPECT_FALSE(exists(folder_.path() / "rgb" / (FormatTime(clip_.Time(1)) + ".png")));
+TEST(ClipWriter, AnEarlierClipIsReplaced) {
+  const WrittenClip written;
+  const RenderedClip shorter(SmallDeskClipOptions(1));
+  WriteClip(shorter, written.folder.path(), {});
+  EXPECT_EQ(ReadTrajectory(written.folder.path() / "groundtruth.txt").size(), 1U);
+  EXPECT_FALSE(exists(written.folder.path() / "rgb" / (FormatTime(written.clip.Time(1)) + ".png")));
 }
 
-TEST_F(ClipWriterTest, AnInterruptedClipHasNoLists) {
+TEST(ClipWriter, AnInterruptedClipHasNoLists) {
+  const WrittenClip written;
   const auto interrupt = [](std::size_t) { throw std::runtime_error("enough"); };
-  const RenderedClip clip(testing::SmallDeskClipOptions(1));
-  EXPECT_THROW(WriteClip(clip, folder_.path(), {}, interrupt), std::runtime_error);
+  const RenderedClip clip(SmallDeskClipOptions(1));
+  EXPECT_THROW(WriteClip(clip, written.folder.path(), {}, interrupt), std::runtime_error);
   for (const char* name : {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt"})
-    EXPECT_FALSE(exists(folder_.path() / name)) << name;
+    EXPECT_FALSE(exists(written.folder.path() / name)) << name;
 }
 
 TEST(ClipWriter, AFolderWithOtherFilesIsRefusedAndLeftAlone) {
   const TemporaryFolder folder;
   const auto file = folder.Write("rgb.txt", "somebody's recording");
-  const RenderedClip clip(testing::SmallDeskClipOptions(1));
+  const RenderedClip clip(SmallDeskClipOptions(1));
   EXPECT_NE(InputErrorOf([&] { WriteClip(clip, folder.path(), {}); }).find("other files"),
             std::string::npos);
   EXPECT_EQ(ReadAll(file), "somebody's recording");
@@ -126,7 +144,7 @@ TEST(ClipWriter, AFolderWithOtherFilesIsRefusedAndLeftAlone) {
 
 TEST(ClipWriter, AFolderThatCannotBeMadeIsAnError) {
   const TemporaryFolder folder;
-  const RenderedClip clip(DeskClipOptions(1));
+  const RenderedClip clip(SmallDeskClipOptions(1));
   const auto file = folder.Write("taken", "");
   EXPECT_NE(InputErrorOf([&] { WriteClip(clip, file / "clip", {}); }).find("taken"),
             std::string::npos);
