@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/io/atomic_file.h"
 #include "semslam/io/tum_recorder.h"
 #include "semslam/live/openni2_source.h"
 
@@ -53,13 +54,12 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       ->type_name("URI|FILE.oni");
   app.add_flag_callback("--list", ListDevices, "Show the cameras and their modes")
       ->trigger_on_parse();
-  CLI::Option* record = app.add_option("--record", arguments.record,
-                                       "Also record all that the camera sends, for --device")
-                            ->type_name("FILE.oni");
+  app.add_option("--record", arguments.record,
+                 "Also record all that the camera sends, for --device")
+      ->type_name("FILE.oni");
   app.add_option("--record-tum", arguments.record_tum,
                  "Also record the frames that are mapped as a sequence for rgbd_tum")
-      ->type_name("DIR")
-      ->excludes(record);
+      ->type_name("DIR");
   app.add_option("--duration", arguments.duration, "Stop after so many seconds")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
@@ -120,6 +120,8 @@ void FinishRecording(semslam::TumRecorder& recorder, const std::filesystem::path
 int MapCamera(const Arguments& arguments) {
   ProgressLine progress(kName);
   semslam::Settings settings = LoadSettingsFor(arguments, progress);
+  if (!arguments.record.empty())
+    semslam::CheckOutputFolder(std::filesystem::absolute(arguments.record).parent_path());
   semslam::OpenNi2Source source(SourceOptions(arguments, settings, progress));
   progress.Report(source.description());
   settings = WithIntrinsics(settings, arguments.settings, source.NominalIntrinsics(),

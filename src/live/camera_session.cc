@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <vector>
 
 #include <OpenNI.h>
@@ -303,6 +304,9 @@ std::optional<CameraSession::Arrival> CameraSession::Wait(std::chrono::milliseco
 }
 
 void CameraSession::StartRecording(const std::filesystem::path& path) {
+  // A recorder that cannot have its file crashes when it ends.
+  if (!std::ofstream(path, std::ios::binary))
+    throw InputError(path.string() + ": cannot be recorded to: the file cannot be made");
   openni::Recorder& recorder = streams_->recorder;
   const bool is_started =
       recorder.create(path.c_str()) == STATUS_OK && recorder.attach(streams_->depth) == STATUS_OK &&

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -261,8 +262,8 @@ class Driver : public oni::driver::DriverBase {
  public:
   explicit Driver(OniDriverServices* services)
       : DriverBase(services),
-        script_(ReadScript(std::getenv("SEMSLAM_TEST_CAMERA"))),  // NOLINT(concurrency-mt-unsafe)
-        pictures_(script_) {}
+        script_(ReadScript(std::getenv("SEMSLAM_TEST_CAMERA")))  // NOLINT(concurrency-mt-unsafe)
+  {}
 
   OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
                        oni::driver::DeviceDisconnectedCallback disconnected,
@@ -284,7 +285,8 @@ class Driver : public oni::driver::DriverBase {
                                       script_.is_busy ? "Resource busy" : "no such device");
       return nullptr;
     }
-    return new Device(script_, pictures_, world_);
+    if (!pictures_) pictures_.emplace(script_);
+    return new Device(script_, *pictures_, world_);
   }
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
 
@@ -320,7 +322,7 @@ class Driver : public oni::driver::DriverBase {
   }
 
   const Script script_;
-  const Pictures pictures_;
+  std::optional<Pictures> pictures_;  // Once somebody looks.
   World world_;
   std::atomic<int> num_plugged_ = 1;
   std::atomic<bool> is_plugged_ = true;
