@@ -28,11 +28,12 @@ constexpr double kMaxLostShare = 0.05;  // Of the frames; more is exit code 2.
 
 semslam::System::Options SystemOptions(const MappingArguments& arguments,
                                        const semslam::Settings& settings,
+                                       const std::shared_ptr<KeyframeGallery>& gallery,
                                        ProgressLine& progress) {
   semslam::System::Options options;
   options.threading =
       arguments.sequential ? semslam::Threading::kInline : semslam::Threading::kWorkers;
-  options.detector = MakeDetector(arguments, settings.detector);
+  options.detector = Watch(MakeDetector(arguments, settings.detector), gallery);
   options.localization_only = arguments.localization;
   options.log = [&progress](semslam::LogLevel, std::string_view, std::string_view message) {
     progress.Report(std::string(message));
@@ -73,11 +74,13 @@ int MapFrames(const MappingArguments& arguments,
               const semslam::Settings& settings,
               semslam::FrameSource& source,
               RunOptions options,
+              const RunOrigin& origin,
               const std::function<std::string()>& why_no_frames,
               ProgressLine& progress) {
   const auto vocabulary =
       std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
-  semslam::System::Options system_options = SystemOptions(arguments, settings, progress);
+  const auto gallery = std::make_shared<KeyframeGallery>();
+  semslam::System::Options system_options = SystemOptions(arguments, settings, gallery, progress);
   semslam::CheckOutputFolder(arguments.output);
   if (!arguments.save_map.empty())
     semslam::CheckOutputFolder(std::filesystem::absolute(arguments.save_map).parent_path());
@@ -85,6 +88,7 @@ int MapFrames(const MappingArguments& arguments,
   semslam::System system(settings, vocabulary, std::move(system_options));
   if (!arguments.load_map.empty()) system.LoadMap(arguments.load_map);
   options.fps = settings.fps;
+  options.on_keyframe = [&](const semslam::RgbdImage& image) { gallery->Add(image); };
   options.should_stop = [] { return interrupt_requested != 0; };
   const RunStatistics run = Run(source, system, options, progress);
   // Nothing was mapped: results of an earlier run stay as they are.
@@ -96,7 +100,14 @@ int MapFrames(const MappingArguments& arguments,
   const semslam::PointCloudMapping::Result map =
       system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
                                       : semslam::System::PendingLabels::kFinish);
-  const std::string error = WriteFiles(arguments, system, map);
+  std::string error = WriteFiles(arguments, system, map);
+  try {
+    const MapView view(map);
+    semslam::WriteReport(arguments.output / "report.html",
+                         MakeReport(origin, arguments, settings, run, system, map, view, *gallery));
+  } catch (const semslam::InputError& not_written) {
+    if (error.empty()) error = not_written.what();
+  }
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);
   if (!error.empty()) throw semslam::InputError(error);

@@ -12,6 +12,7 @@
 #include "arguments.h"
 #include "progress_line.h"
 #include "run_loop.h"
+#include "run_report.h"
 
 // Everything that does not depend on where the frames come from: maps them, writes the files and
 // prints the summary. Returns the exit code: 0, or 2 if tracking was lost too often. Throws
@@ -20,6 +21,7 @@ int MapFrames(const MappingArguments& arguments,
               const semslam::Settings& settings,
               semslam::FrameSource& source,
               RunOptions options,
+              const RunOrigin& origin,
               const std::function<std::string()>& why_no_frames,
               ProgressLine& progress);
 

@@ -117,6 +117,14 @@ void FinishRecording(semslam::TumRecorder& recorder, const std::filesystem::path
   if (recorded.error) throw semslam::InputError(*recorded.error);
 }
 
+RunOrigin Origin(const Arguments& arguments) {
+  const std::string device = arguments.device.empty() ? "first camera" : arguments.device;
+  return {.program = std::string(kName) + " " SEMSLAM_VERSION,
+          .name = arguments.device.empty() ? "Live camera" : arguments.device,
+          .truth = {},
+          .arguments = {{"device", device}}};
+}
+
 int MapCamera(const Arguments& arguments) {
   ProgressLine progress(kName);
   semslam::Settings settings = LoadSettingsFor(arguments, progress);
@@ -138,7 +146,8 @@ int MapCamera(const Arguments& arguments) {
   const auto why_no_frames = [&source] {
     return source.failure().value_or("expected frames, but the camera sent none");
   };
-  const int exit_code = MapFrames(arguments, settings, source, run, why_no_frames, progress);
+  const int exit_code =
+      MapFrames(arguments, settings, source, run, Origin(arguments), why_no_frames, progress);
   if (recorder) FinishRecording(*recorder, arguments.record_tum);
   if (!source.failure()) return exit_code;
   std::cerr << kName << ": " << Printable(*source.failure()) << '\n';

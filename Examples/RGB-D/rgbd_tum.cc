@@ -40,6 +40,16 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
       "of the frames.");
 }
 
+RunOrigin Origin(const Arguments& arguments) {
+  const std::filesystem::path folder =
+      std::filesystem::absolute(arguments.sequence / "").lexically_normal().parent_path();
+  return {.program = std::string(kName) + " " SEMSLAM_VERSION,
+          .name = folder.filename().string(),
+          .truth = folder / "groundtruth.txt",
+          .arguments = {{"sequence", arguments.sequence.string()},
+                        {"associations", arguments.associations.string()}}};
+}
+
 int MapSequence(const Arguments& arguments) {
   ProgressLine progress(kName);
   const semslam::Settings settings = LoadSettingsFor(arguments, progress);
@@ -53,7 +63,7 @@ int MapSequence(const Arguments& arguments) {
   const auto why_no_frames = [&arguments] {
     return arguments.sequence.string() + ": expected frames, but no frame could be read";
   };
-  return MapFrames(arguments, settings, sequence, run, why_no_frames, progress);
+  return MapFrames(arguments, settings, sequence, run, Origin(arguments), why_no_frames, progress);
 }
 
 }  // namespace

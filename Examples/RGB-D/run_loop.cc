@@ -20,7 +20,8 @@
 
 namespace {
 
-constexpr std::size_t kMaxReports = 10;  // Of unreadable frames.
+constexpr std::size_t kMaxReports = 10;      // Of unreadable frames.
+constexpr std::size_t kFramesPerSample = 5;  // Of the queues.
 
 const char* StateName(semslam::TrackingState state) {
   switch (state) {
@@ -145,9 +146,9 @@ class Runner {
     if (options_.keep_frame_times && pacer_.WaitFor(image.time) > 1.0 / options_.fps)
       ++*statistics_.num_late;
     if (options_.on_frame) options_.on_frame(image);
+    const auto shared_image = std::make_shared<const semslam::RgbdImage>(std::move(image));
     const semslam::Stopwatch tracking;
-    const semslam::Tracking::Result result =
-        system_.TrackRGBD(std::make_shared<const semslam::RgbdImage>(std::move(image)));
+    const semslam::Tracking::Result result = system_.TrackRGBD(shared_image);
     statistics_.tracking_milliseconds.push_back(tracking.Milliseconds());
     if (options_.live) {
       const double latency = 1e3 * options_.live->seconds_since_arrival();
@@ -155,9 +156,17 @@ class Runner {
       recent_.Add(latency);
     }
     ++statistics_.num_frames;
+    if (options_.on_keyframe && result.new_keyframe) options_.on_keyframe(*shared_image);
+    if (statistics_.num_frames % kFramesPerSample == 0) SampleQueues();
     if (result.map_was_reset) statistics_.num_tracked = 0;  // Their poses went with the map.
     if (result.state == semslam::TrackingState::kTracking) ++statistics_.num_tracked;
     return result.state;
+  }
+
+  void SampleQueues() {
+    const semslam::System::Status status = system_.status();
+    statistics_.queues.push_back({statistics_.num_frames, status.mapping_queue, status.loop_queue,
+                                  status.dense_queue, status.detector_queue});
   }
 
   void ShowProgress(semslam::TrackingState state) {

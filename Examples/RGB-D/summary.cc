@@ -8,18 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-
+#include "peak_memory.h"
 #include "printable.h"
 #include "quantile.h"
 
 namespace {
-
-double PeakMegabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in kilobytes.
-}
 
 // "2 cup, 1 keyboard".
 std::string CountClasses(const semslam::SemanticMap& map) {
