@@ -1,27 +1,30 @@
-# semslam_embed_scenes(OUTPUT file.cc FILES a.yaml ...): writes a source file that holds the texts of
-# the scene files, for src/render/built_in_scenes.h. A changed file is written anew at the next build.
-function(semslam_embed_scenes)
-  cmake_parse_arguments(ARG "" "OUTPUT" "FILES" ${ARGN})
+# semslam_embed_texts(OUTPUT file.cc HEADER header.h TYPE type FUNCTION function NAMES NAME|NAME_WE
+#                     FILES a.yaml ...)
+# Writes a source file that holds the texts of files, each as a `type` of name (with or without
+# ending) and text; `function`, declared in the header, gives them as a span in that order. A changed
+# file is written anew at the next build.
+function(semslam_embed_texts)
+  cmake_parse_arguments(ARG "" "OUTPUT;HEADER;TYPE;FUNCTION;NAMES" "FILES" ${ARGN})
   set(entries "")
   foreach(file IN LISTS ARG_FILES)
-    get_filename_component(name ${file} NAME_WE)
+    get_filename_component(name ${file} ${ARG_NAMES})
     file(READ ${file} text)
-    string(APPEND entries "    {\"${name}\", R\"scene(${text})scene\"},\n")
+    string(APPEND entries "    {\"${name}\", R\"embedded(${text})embedded\"},\n")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   endforeach()
   file(CONFIGURE OUTPUT ${ARG_OUTPUT} @ONLY CONTENT [[
 // Written by cmake/SemslamEmbed.cmake.
-#include "render/built_in_scenes.h"
+#include "@ARG_HEADER@"
 
 namespace semslam {
 namespace {
 
-constexpr BuiltInScene kScenes[] = {
+constexpr @ARG_TYPE@ kTexts[] = {
 @entries@};
 
 }  // namespace
 
-std::span<const BuiltInScene> BuiltInScenes() { return kScenes; }
+std::span<const @ARG_TYPE@> @ARG_FUNCTION@() { return kTexts; }
 
 }  // namespace semslam
 ]])

@@ -37,20 +37,24 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-void AddPositionals(CLI::App& app, Arguments& arguments) {
+}  // namespace
+
+std::unique_ptr<CLI::App> MakeApp(const std::string& name, const std::string& description) {
+  auto app = std::make_unique<CLI::App>(description, name);
+  app->set_version_flag("--version", name + " " SEMSLAM_VERSION);
+  app->formatter(std::make_shared<HelpFormatter>());
+  return app;
+}
+
+void AddMappingPositionals(CLI::App& app, MappingArguments& arguments) {
   app.add_option("VOCABULARY", arguments.vocabulary,
                  "Visual vocabulary: Vocabulary/orb.voc, or ORB-SLAM2's ORBvoc.txt")
       ->required();
   app.add_option("SETTINGS", arguments.settings, "Camera and parameters: config/TUM1.yaml, ...")
       ->required();
-  app.add_option("SEQUENCE", arguments.sequence, "Folder of a TUM RGB-D sequence")->required();
-  app.add_option(
-         "ASSOCIATIONS", arguments.associations,
-         "File that pairs colour and depth images; - pairs them by nearest time within 20 ms")
-      ->required();
 }
 
-void AddOptions(CLI::App& app, Arguments& arguments) {
+void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::string& realtime) {
   app.add_option("--output", arguments.output, "Folder for the results (default: here)")
       ->type_name("DIR");
   CLI::Option* network =
@@ -90,13 +94,13 @@ void AddOptions(CLI::App& app, Arguments& arguments) {
       ->excludes(save);
   CLI::Option* sequential = app.add_flag("--sequential", arguments.sequential,
                                          "Everything in one thread: two runs write the same bytes");
-  app.add_flag("--realtime", arguments.realtime,
-               "Keep the recorded frame times instead of going as fast as it can")
-      ->excludes(sequential);
+  app.add_flag("--realtime", arguments.realtime, realtime)->excludes(sequential);
 }
 
+namespace {
+
 // Null for none.
-std::unique_ptr<semslam::Detector> ChosenDetector(const Arguments& arguments,
+std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& arguments,
                                                   const semslam::DetectorSettings& settings) {
   const std::vector<std::string>& interest =
       arguments.classes.empty() ? settings.classes : arguments.classes;
@@ -133,30 +137,19 @@ std::unique_ptr<semslam::Detector> ChosenDetector(const Arguments& arguments,
 
 }  // namespace
 
-ParseResult ParseArguments(int argc, char** argv) {
-  ParseResult result;
-  CLI::App app(
-      "Maps a recorded RGB-D sequence: trajectory, dense cloud, segments and labelled objects.",
-      "rgbd_tum");
-  app.set_version_flag("--version", "rgbd_tum " SEMSLAM_VERSION);
-  app.formatter(std::make_shared<HelpFormatter>());
-  AddPositionals(app, result.arguments);
-  AddOptions(app, result.arguments);
-  app.footer(
-      "Exit codes: 0 done; 1 bad input or usage; 2 done, but tracking was lost for more than 5 % "
-      "of the frames.");
+std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    result.exit_code = app.exit(help_or_version);
+    return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "rgbd_tum: " << Printable(error.what()) << " (--help shows the usage)\n";
-    result.exit_code = 1;
+    std::cerr << app.get_name() << ": " << Printable(error.what()) << " (--help shows the usage)\n";
+    return 1;
   }
-  return result;
+  return std::nullopt;
 }
 
-std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
+std::unique_ptr<semslam::Detector> MakeDetector(const MappingArguments& arguments,
                                                 const semslam::DetectorSettings& settings) {
   if (arguments.no_semantics) return nullptr;
   std::unique_ptr<semslam::Detector> detector = ChosenDetector(arguments, settings);

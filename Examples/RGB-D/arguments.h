@@ -12,12 +12,14 @@
 #include "semslam/config/settings.h"
 #include "semslam/semantics/detector.h"
 
-// The command line of rgbd_tum.
-struct Arguments {
+namespace CLI {
+class App;
+}
+
+// The command line that the mapping programs share.
+struct MappingArguments {
   std::filesystem::path vocabulary;
   std::filesystem::path settings;
-  std::filesystem::path sequence;
-  std::filesystem::path associations;  // "-": by nearest time.
   std::filesystem::path output = ".";
   std::vector<std::string> network;  // CFG WEIGHTS NAMES, or empty.
   std::filesystem::path detections;  // Folder of recorded detections, or empty.
@@ -32,16 +34,19 @@ struct Arguments {
   bool realtime = false;
 };
 
-struct ParseResult {
-  Arguments arguments;
-  std::optional<int>
-      exit_code;  // Set if there is nothing to run: --help, --version, or wrong usage.
-};
+// An application with --help and --version in this project's form.
+std::unique_ptr<CLI::App> MakeApp(const std::string& name, const std::string& description);
 
-// Prints help and complaints itself.
-ParseResult ParseArguments(int argc, char** argv);
+// VOCABULARY SETTINGS.
+void AddMappingPositionals(CLI::App& app, MappingArguments& arguments);
+// `realtime` says what --realtime does.
+void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::string& realtime);
+
+// Prints help and complaints itself. The exit code if there is nothing to run: --help, --version,
+// or wrong usage.
+std::optional<int> Parse(CLI::App& app, int argc, char** argv);
 
 // The detector that command line and settings ask for, or null for none. Throws semslam::InputError
 // if it cannot be had.
-std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments,
+std::unique_ptr<semslam::Detector> MakeDetector(const MappingArguments& arguments,
                                                 const semslam::DetectorSettings& settings);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <utility>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -27,7 +28,8 @@ std::size_t TerminalWidth() {
 
 }  // namespace
 
-ProgressLine::ProgressLine() : is_terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine(std::string program)
+    : program_(std::move(program)), is_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 bool ProgressLine::is_due() const {
   return since_update_.Seconds() >= (is_terminal_ ? kTerminalInterval : kFileInterval);
@@ -48,7 +50,7 @@ void ProgressLine::ShowStep(const std::string& text) {
 
 void ProgressLine::Report(const std::string& message) {
   Clear();
-  std::fprintf(stderr, "rgbd_tum: %s\n", Printable(message).c_str());
+  std::fprintf(stderr, "%s: %s\n", program_.c_str(), Printable(message).c_str());
 }
 
 void ProgressLine::Clear() {

@@ -11,7 +11,8 @@
 // vanishes at the end; a file or pipe gets a line every few seconds. For one thread.
 class ProgressLine {
  public:
-  ProgressLine();
+  // `program` begins the lines that stay.
+  explicit ProgressLine(std::string program);
   ~ProgressLine() { Clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -28,6 +29,7 @@ class ProgressLine {
  private:
   void Overwrite(const std::string& text);
 
+  const std::string program_;
   bool is_terminal_;
   bool is_shown_ = false;
   semslam::Stopwatch since_update_;

@@ -14,6 +14,21 @@
 
 #include "progress_line.h"
 
+// How well it kept up with a camera.
+struct LiveStatistics {
+  std::vector<double> latency_milliseconds;  // From a frame's coming to its pose, one each.
+  std::size_t num_dropped = 0;               // Came while another was tracked.
+};
+
+// How much waited for each thread, after so many frames.
+struct QueueSample {
+  std::size_t num_frames = 0;
+  std::size_t mapping = 0;
+  std::size_t loop = 0;
+  std::size_t dense = 0;
+  std::size_t detector = 0;
+};
+
 // What happened to the frames of a run.
 struct RunStatistics {
   std::size_t num_frames = 0;  // Read, tracked or not.
@@ -22,16 +37,27 @@ struct RunStatistics {
   // With kept frame times: how many started more than one frame after they were due.
   std::optional<std::size_t> num_late;
   std::vector<double> tracking_milliseconds;  // One a frame read.
+  std::vector<QueueSample> queues;            // Every few frames.
+  std::optional<LiveStatistics> live;
   double seconds = 0;
   bool interrupted = false;
 
   std::size_t num_lost() const { return num_frames - num_tracked; }
 };
 
+// What a camera knows of itself, for the frame that it gave last.
+struct LiveFeed {
+  std::function<double()> seconds_since_arrival;
+  std::function<std::size_t()> num_dropped;  // So far.
+};
+
 struct RunOptions {
-  bool keep_frame_times = false;      // Wait until a frame is due.
-  double fps = 30;                    // Of the recording.
-  std::function<bool()> should_stop;  // Asked before every frame.
+  bool keep_frame_times = false;                               // Wait until a frame is due.
+  double fps = 30;                                             // Of the recording.
+  std::function<bool()> should_stop;                           // Asked before every frame.
+  std::optional<LiveFeed> live;                                // If the source is a camera.
+  std::function<void(const semslam::RgbdImage&)> on_frame;     // Gets every frame; may be empty.
+  std::function<void(const semslam::RgbdImage&)> on_keyframe;  // The same for keyframes.
 };
 
 // Feeds all frames of the source to the system. An unreadable frame is counted and skipped, and

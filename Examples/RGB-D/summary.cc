@@ -3,31 +3,16 @@
 
 #include "summary.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-
+#include "peak_memory.h"
 #include "printable.h"
+#include "quantile.h"
 
 namespace {
-
-double Quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(
-      std::lround(fraction * static_cast<double>(values.size() - 1)))];
-}
-
-double PeakMegabytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in kilobytes.
-}
 
 // "2 cup, 1 keyboard".
 std::string CountClasses(const semslam::SemanticMap& map) {
@@ -70,6 +55,14 @@ void PrintSummary(const RunStatistics& run,
               run.interrupted ? " (interrupted)" : "");
   if (run.num_late)
     std::printf("late by over a frame  %zu of %zu frames\n", *run.num_late, run.num_frames);
+  if (run.live) {
+    const LiveStatistics& live = *run.live;
+    std::printf("dropped               %zu of %zu images came while another was tracked\n",
+                live.num_dropped, live.num_dropped + run.num_frames);
+    std::printf("frame to pose         median %.1f ms, p95 %.1f ms\n",
+                Quantile(live.latency_milliseconds, 0.5),
+                Quantile(live.latency_milliseconds, 0.95));
+  }
   std::printf("tracking time         median %.1f ms, p95 %.1f ms\n",
               Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
   std::printf("keyframes             %zu\n", status.num_keyframes);

@@ -105,8 +105,9 @@ void MeasureAbsolute(const std::vector<PosePair>& pairs, TrajectoryError& error)
   error.T_truth_estimate_map = AlignPoses(pairs);
   std::vector<double> distances;
   for (const PosePair& pair : pairs) {
-    distances.push_back(
-        (error.T_truth_estimate * pair.T_estimate.translation - pair.T_truth.translation).norm());
+    const Eigen::Vector3d& p_truth = pair.T_truth.translation;
+    distances.push_back((error.T_truth_estimate * pair.T_estimate.translation - p_truth).norm());
+    error.poses.push_back({pair.time, p_truth, distances.back()});
   }
   error.absolute = Summarize(std::move(distances));
   for (std::size_t i = 1; i < pairs.size(); ++i) {

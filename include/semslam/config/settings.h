@@ -49,6 +49,7 @@ struct Settings {
   double close_depth_factor = 40;  // ThDepth: a depth is close if below this many baselines.
   double depth_factor = 5000;      // Value of a depth pixel at 1 m.
   bool is_rgb = true;              // Camera.RGB; images from files say their order themselves.
+  bool auto_exposure = true;       // Camera.autoExposure; of live cameras, and white balance.
   OrbExtractor::Options orb;       // ORBextractor.*
   Tracking::Options tracking;      // Its close_depth_m and frame rate are set from the above.
   LocalMapping::Options mapping;   // The same.

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "semslam/base/time.h"
 #include "semslam/geometry/rigid3.h"
 #include "semslam/io/trajectory_io.h"
@@ -32,6 +36,14 @@ struct TrajectoryError {
   int num_relative_pairs = 0;
   double relative_translation_rmse = 0;  // Metres.
   double relative_rotation_rmse_degrees = 0;
+
+  // Of each pair.
+  struct Pose {
+    TimeNs time = 0;                                    // Of the estimate.
+    Eigen::Vector3d p_truth = Eigen::Vector3d::Zero();  // In the world of the truth, metres.
+    double distance = 0;                                // As in the absolute error.
+  };
+  std::vector<Pose> poses;
 
   double path_length = 0;  // Of the true positions of the pairs, metres.
 };

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "keyframe_gallery.h"
+
+#include <utility>
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace {
+
+constexpr std::size_t kMaxPictures = 160;  // About 50 kB each.
+
+class WatchedDetector : public semslam::Detector {
+ public:
+  WatchedDetector(std::unique_ptr<semslam::Detector> detector,
+                  std::shared_ptr<KeyframeGallery> gallery)
+      : detector_(std::move(detector)), gallery_(std::move(gallery)) {}
+
+  std::vector<semslam::Detection> Detect(const semslam::RgbdImage& image) override {
+    std::vector<semslam::Detection> detections = detector_->Detect(image);
+    gallery_->AddDetections(image.time, detections);
+    return detections;
+  }
+  const semslam::ClassTable& classes() const override { return detector_->classes(); }
+
+ private:
+  std::unique_ptr<semslam::Detector> detector_;
+  std::shared_ptr<KeyframeGallery> gallery_;
+};
+
+// Empty if it cannot be done.
+std::string ToJpeg(const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 85})) return "";
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+void KeyframeGallery::Add(const semslam::RgbdImage& keyframe) {
+  const bool is_wanted =
+      content_.Write([](Content& content) { return content.num_added++ % content.step == 0; });
+  if (!is_wanted) return;
+  std::string jpeg = ToJpeg(keyframe.color);
+  content_.Write([&](Content& content) {
+    content.jpegs.emplace(keyframe.time, std::move(jpeg));
+    if (content.jpegs.size() <= kMaxPictures) return;
+    content.step *= 2;
+    bool is_odd = true;
+    std::erase_if(content.jpegs, [&](const auto&) { return is_odd = !is_odd; });
+  });
+}
+
+void KeyframeGallery::AddDetections(semslam::TimeNs time,
+                                    std::vector<semslam::Detection> detections) {
+  for (semslam::Detection& detection : detections) detection.class_scores.clear();
+  content_.Write(
+      [&](Content& content) { content.detections.insert_or_assign(time, std::move(detections)); });
+}
+
+std::map<semslam::TimeNs, KeyframeGallery::Picture> KeyframeGallery::Take() {
+  return content_.Write([](Content& content) {
+    std::map<semslam::TimeNs, Picture> pictures;
+    for (auto& [time, jpeg] : content.jpegs)
+      pictures[time] = {std::move(jpeg), std::move(content.detections[time])};
+    content = {};
+    return pictures;
+  });
+}
+
+std::unique_ptr<semslam::Detector> Watch(std::unique_ptr<semslam::Detector> detector,
+                                         std::shared_ptr<KeyframeGallery> gallery) {
+  if (detector == nullptr) return nullptr;
+  return std::make_unique<WatchedDetector>(std::move(detector), std::move(gallery));
+}

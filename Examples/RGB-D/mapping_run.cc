@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapping_run.h"
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include <opencv2/core/utility.hpp>
+
+#include "semslam/base/error.h"
+#include "semslam/io/atomic_file.h"
+#include "semslam/pipeline/system.h"
+#include "semslam/place/vocabulary.h"
+
+#include "interrupt.h"
+#include "printable.h"
+#include "result_files.h"
+#include "summary.h"
+
+namespace {
+
+constexpr double kMaxLostShare = 0.05;  // Of the frames; more is exit code 2.
+
+semslam::System::Options SystemOptions(const MappingArguments& arguments,
+                                       const semslam::Settings& settings,
+                                       const std::shared_ptr<KeyframeGallery>& gallery,
+                                       ProgressLine& progress) {
+  semslam::System::Options options;
+  options.threading =
+      arguments.sequential ? semslam::Threading::kInline : semslam::Threading::kWorkers;
+  options.detector = Watch(MakeDetector(arguments, settings.detector), gallery);
+  options.localization_only = arguments.localization;
+  options.log = [&progress](semslam::LogLevel, std::string_view, std::string_view message) {
+    progress.Report(std::string(message));
+  };
+  return options;
+}
+
+bool IsTooMuchLost(const RunStatistics& run) {
+  const auto num_missed = static_cast<double>(run.num_lost() + run.num_unreadable);
+  return num_missed > kMaxLostShare * static_cast<double>(run.num_frames + run.num_unreadable);
+}
+
+// What is left to do after the last frame, for the one who waits.
+std::string RemainingSteps(const semslam::System::Status& status) {
+  std::string text = "finishing: ";
+  if (status.detector_queue > 0)
+    text += std::to_string(status.detector_queue) + " images to label, ";
+  return text + "segments, objects, files";
+}
+
+// What went wrong, if something did.
+std::string WriteFiles(const MappingArguments& arguments,
+                       const semslam::System& system,
+                       const semslam::PointCloudMapping::Result& map) {
+  std::string error = WriteResults(arguments.output, system, map);
+  if (arguments.save_map.empty()) return error;
+  try {
+    system.SaveMap(arguments.save_map);
+  } catch (const semslam::InputError& not_saved) {
+    if (error.empty()) error = not_saved.what();
+  }
+  return error;
+}
+
+}  // namespace
+
+int MapFrames(const MappingArguments& arguments,
+              const semslam::Settings& settings,
+              semslam::FrameSource& source,
+              RunOptions options,
+              const RunOrigin& origin,
+              const std::function<std::string()>& why_no_frames,
+              ProgressLine& progress) {
+  const auto vocabulary =
+      std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
+  const auto gallery = std::make_shared<KeyframeGallery>();
+  semslam::System::Options system_options = SystemOptions(arguments, settings, gallery, progress);
+  semslam::CheckOutputFolder(arguments.output);
+  if (!arguments.save_map.empty())
+    semslam::CheckOutputFolder(std::filesystem::absolute(arguments.save_map).parent_path());
+
+  semslam::System system(settings, vocabulary, std::move(system_options));
+  if (!arguments.load_map.empty()) system.LoadMap(arguments.load_map);
+  options.fps = settings.fps;
+  options.on_keyframe = [&](const semslam::RgbdImage& image) { gallery->Add(image); };
+  options.should_stop = [] { return interrupt_requested != 0; };
+  const RunStatistics run = Run(source, system, options, progress);
+  // Nothing was mapped: results of an earlier run stay as they are.
+  if (run.num_frames == 0) {
+    throw semslam::InputError(
+        run.interrupted ? "interrupted before the first frame: nothing to write" : why_no_frames());
+  }
+  progress.ShowStep(RemainingSteps(system.status()));
+  const semslam::PointCloudMapping::Result map =
+      system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
+                                      : semslam::System::PendingLabels::kFinish);
+  std::string error = WriteFiles(arguments, system, map);
+  try {
+    const MapView view(map);
+    semslam::WriteReport(arguments.output / "report.html",
+                         MakeReport(origin, arguments, settings, run, system, map, view, *gallery));
+  } catch (const semslam::InputError& not_written) {
+    if (error.empty()) error = not_written.what();
+  }
+  progress.Clear();
+  PrintSummary(run, system, map, arguments.output);
+  if (!error.empty()) throw semslam::InputError(error);
+  return IsTooMuchLost(run) ? 2 : 0;
+}
+
+int RunMappingProgram(const char* name, const std::function<int()>& run) {
+  InstallInterruptHandler();
+  // Tracking keeps a core busy; OpenCV's own threads (the detector's) share the others.
+  cv::setNumThreads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
+  try {
+    return run();
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << Printable(error.what()) << '\n';
+    return 1;
+  }
+}
+
+semslam::Settings LoadSettingsFor(const MappingArguments& arguments, ProgressLine& progress) {
+  semslam::Settings settings = semslam::LoadSettings(arguments.settings);
+  for (const std::string& warning : settings.warnings) progress.Report("warning: " + warning);
+  return settings;
+}
