@@ -52,8 +52,8 @@ class System {
     // Finds the camera in a loaded map, and leaves the map as it is.
     bool localization_only = false;
     // For measurements; both may be empty.
-    StepObserver on_step;
-    SharedMap::WaitObserver on_map_wait;
+    StepObserver on_step = {};
+    SharedMap::WaitObserver on_map_wait = {};
   };
 
   // What can be watched while it runs.
