@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/io/detection_recorder.h"
 #include "semslam/semantics/darknet_detector.h"
 #include "semslam/semantics/recorded_detector.h"
 
@@ -73,9 +74,14 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
   app.add_option("--score", arguments.score, "Least score of a detection (default: 0.25)")
       ->type_name("S")
       ->check(CheckScore);
+  CLI::Option* save_detections =
+      app.add_flag("--save-detections", arguments.save_detections,
+                   "Write the keyframes with their boxes, and what --detections reads, into the "
+                   "folder detections of the results");
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
-      ->excludes(detections);
+      ->excludes(detections)
+      ->excludes(save_detections);
   CLI::Option* load =
       app.add_option("--load-map", arguments.load_map, "Go on from a map that --save-map wrote")
           ->type_name("FILE");
@@ -103,9 +109,11 @@ std::optional<int> Parse(CLI::App& app, int argc, char** argv) {
   return std::nullopt;
 }
 
-std::unique_ptr<semslam::Detector> MakeDetector(const MappingArguments& arguments,
-                                                const semslam::DetectorSettings& settings) {
-  if (arguments.no_semantics) return nullptr;
+namespace {
+
+// Null for none.
+std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& arguments,
+                                                  const semslam::DetectorSettings& settings) {
   const std::vector<std::string>& interest =
       arguments.classes.empty() ? settings.classes : arguments.classes;
   const auto score = static_cast<float>(arguments.score.value_or(settings.score_threshold));
@@ -137,4 +145,24 @@ std::unique_ptr<semslam::Detector> MakeDetector(const MappingArguments& argument
   options.input_size = settings.input_size;
   return std::make_unique<semslam::DarknetDetector>(
       options, semslam::ClassTable::FromFile(names).WithInterest(interest));
+}
+
+}  // namespace
+
+std::unique_ptr<semslam::Detector> MakeDetector(const MappingArguments& arguments,
+                                                const semslam::DetectorSettings& settings) {
+  if (arguments.no_semantics) return nullptr;
+  std::unique_ptr<semslam::Detector> detector = ChosenDetector(arguments, settings);
+  if (!arguments.save_detections) return detector;
+  if (detector == nullptr) {
+    throw semslam::InputError(
+        "--save-detections: nothing detects: expected --network or --detections");
+  }
+  const std::filesystem::path folder = arguments.output / "detections";
+  std::error_code ignored;  // Then they are two.
+  if (std::filesystem::equivalent(folder, arguments.detections, ignored)) {
+    throw semslam::InputError("--save-detections: " + folder.string() +
+                              " would be overwritten while it is read by --detections");
+  }
+  return std::make_unique<semslam::DetectionRecorder>(std::move(detector), folder);
 }

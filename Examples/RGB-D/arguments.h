@@ -29,6 +29,7 @@ struct MappingArguments {
   std::filesystem::path save_map;  // Empty: not saved.
   bool localization = false;
   bool no_semantics = false;
+  bool save_detections = false;
   bool sequential = false;
   bool realtime = false;
 };

@@ -14,6 +14,7 @@
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/cloud_io.h"
 
+#include "baselines.h"
 #include "map_report.h"
 #include "run_program.h"
 
@@ -24,6 +25,7 @@ struct Arguments {
   std::string result;
   std::string json;
   std::string labelled_cloud;
+  std::string detections;
   semslam::MapEvaluationOptions options;
 };
 
@@ -37,6 +39,10 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option(
       "--labelled-cloud", arguments.labelled_cloud,
       "PCD file to write the map's points to, with their true surface as label (0: none)");
+  app.add_option("--detections", arguments.detections,
+                 "Also print what simpler ways make of these detections: painted boxes, votes by "
+                 "point, votes by segment (DIR of rgbd_tum --save-detections, or of the clip)")
+      ->type_name("DIR");
   app.set_version_flag("--version", "evaluate_map " SEMSLAM_VERSION);
 }
 
@@ -44,14 +50,19 @@ int Run(const Arguments& arguments) {
   const semslam::ClipTruth truth = semslam::ReadClipTruth(arguments.clip);
   const semslam::MapResult result = semslam::ReadMapResult(arguments.result);
   const semslam::MapEvaluation evaluation = semslam::EvaluateMap(truth, result, arguments.options);
+  std::vector<Baseline> baselines;
+  if (!arguments.detections.empty()) {
+    baselines = EvaluateBaselines({arguments.clip, arguments.result, arguments.detections}, truth,
+                                  result, evaluation, arguments.options);
+  }
   if (!arguments.json.empty()) {
-    semslam::WriteFileAtomically(arguments.json, MapJson(evaluation, truth));
+    semslam::WriteFileAtomically(arguments.json, MapJson(evaluation, truth, baselines));
   }
   if (!arguments.labelled_cloud.empty()) {
     semslam::WritePcd(arguments.labelled_cloud,
                       {.positions = result.positions, .labels = evaluation.region_of_point});
   }
-  std::cout << MapTable(evaluation, truth);
+  std::cout << MapTable(evaluation, truth, baselines);
   return 0;
 }
 

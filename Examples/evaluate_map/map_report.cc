@@ -146,6 +146,19 @@ std::string ObjectTable(const MapEvaluation& evaluation, const ClipTruth& truth)
          "segment from elsewhere; *: too little seen to count\n";
 }
 
+std::string BaselineTable(const MapEvaluation& evaluation, const std::vector<Baseline>& baselines) {
+  if (baselines.empty()) return "";
+  std::string table =
+      Line("\n%-24s %10s %9s %9s\n", "labels by", "on objects", "mean IoU", "bleeding");
+  const auto row = [](const std::string& name, const semslam::LabelEvaluation& labels) {
+    return Line("%-24s %10s %9s %9s\n", name.c_str(), Share(labels.labels.ObjectAccuracy()).c_str(),
+                Share(labels.labels.MeanIntersectionOverUnion()).c_str(),
+                Share(labels.bleeding.Share()).c_str());
+  };
+  for (const Baseline& baseline : baselines) table += row(baseline.name, baseline.evaluation);
+  return table + row("this map", {evaluation.labels, evaluation.bleeding});
+}
+
 Json ToJson(const semslam::TrajectoryError& error) {
   return {{"num_estimates", error.num_estimates},
           {"num_pairs", error.num_pairs},
@@ -179,14 +192,19 @@ Json SegmentationJson(const MapEvaluation& evaluation, const ClipTruth& truth) {
   return json;
 }
 
-Json LabelsJson(const MapEvaluation& evaluation) {
+Json LabelsJson(const semslam::LabelEvaluation& evaluation) {
   const auto& labels = evaluation.labels;
-  Json json = {{"accuracy_on_objects", labels.ObjectAccuracy()},
-               {"accuracy", labels.Accuracy()},
-               {"mean_iou", labels.MeanIntersectionOverUnion()},
-               {"bleeding", evaluation.bleeding.Share()},
-               {"num_points_near_objects", evaluation.bleeding.num_points},
-               {"classes", Json::array()}};
+  return {{"accuracy_on_objects", labels.ObjectAccuracy()},
+          {"accuracy", labels.Accuracy()},
+          {"mean_iou", labels.MeanIntersectionOverUnion()},
+          {"bleeding", evaluation.bleeding.Share()},
+          {"num_points_near_objects", evaluation.bleeding.num_points}};
+}
+
+Json LabelsJson(const MapEvaluation& evaluation, const std::vector<Baseline>& baselines) {
+  const auto& labels = evaluation.labels;
+  Json json = LabelsJson({labels, evaluation.bleeding});
+  json["classes"] = Json::array();
   for (std::size_t i = 0; i < evaluation.classes.size(); ++i) {
     const ClassScore& score = labels.classes[i];
     json["classes"].push_back({{"name", evaluation.classes[i]},
@@ -195,6 +213,9 @@ Json LabelsJson(const MapEvaluation& evaluation) {
                                {"precision", score.Precision()},
                                {"recall", score.Recall()},
                                {"iou", score.IntersectionOverUnion()}});
+  }
+  for (const Baseline& baseline : baselines) {
+    json["baselines"][baseline.name] = LabelsJson(baseline.evaluation);
   }
   return json;
 }
@@ -224,11 +245,16 @@ Json ToJson(const ObjectScore& score, const MapEvaluation& evaluation) {
 
 }  // namespace
 
-std::string MapTable(const MapEvaluation& evaluation, const ClipTruth& truth) {
-  return GeometryTable(evaluation) + LabelTable(evaluation) + ObjectTable(evaluation, truth);
+std::string MapTable(const MapEvaluation& evaluation,
+                     const ClipTruth& truth,
+                     const std::vector<Baseline>& baselines) {
+  return GeometryTable(evaluation) + LabelTable(evaluation) + ObjectTable(evaluation, truth) +
+         BaselineTable(evaluation, baselines);
 }
 
-std::string MapJson(const MapEvaluation& evaluation, const ClipTruth& truth) {
+std::string MapJson(const MapEvaluation& evaluation,
+                    const ClipTruth& truth,
+                    const std::vector<Baseline>& baselines) {
   const auto& surface = evaluation.surface;
   Json json = {{"trajectory", ToJson(evaluation.trajectory)},
                {"surface",
@@ -238,7 +264,7 @@ std::string MapJson(const MapEvaluation& evaluation, const ClipTruth& truth) {
                  {"error_p95_m", surface.Quantile(0.95)},
                  {"completeness", surface.completeness}}},
                {"segmentation", SegmentationJson(evaluation, truth)},
-               {"labels", LabelsJson(evaluation)},
+               {"labels", LabelsJson(evaluation, baselines)},
                {"objects", Json::array()}};
   for (const ObjectScore& score : evaluation.objects) {
     json["objects"].push_back(ToJson(score, evaluation));

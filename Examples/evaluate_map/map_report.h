@@ -4,10 +4,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "semslam/eval/clip_truth.h"
 #include "semslam/eval/map_evaluation.h"
 
+#include "baselines.h"
+
 // The measures as a table for people, and as JSON for programs (null where a share is of nothing).
-std::string MapTable(const semslam::MapEvaluation& evaluation, const semslam::ClipTruth& truth);
-std::string MapJson(const semslam::MapEvaluation& evaluation, const semslam::ClipTruth& truth);
+std::string MapTable(const semslam::MapEvaluation& evaluation,
+                     const semslam::ClipTruth& truth,
+                     const std::vector<Baseline>& baselines);
+std::string MapJson(const semslam::MapEvaluation& evaluation,
+                    const semslam::ClipTruth& truth,
+                    const std::vector<Baseline>& baselines);

@@ -39,19 +39,19 @@ void MeasureSegments(const ClipTruth& truth,
   evaluation.boundaries = ScoreBoundaries(positions, result.segments, regions, options);
 }
 
-void MeasureLabels(const ClipTruth& truth,
-                   const MapResult& result,
-                   const std::vector<Eigen::Vector3f>& positions,
-                   const ClassNumbers& numbers,
-                   double bleeding_reach,
-                   MapEvaluation& evaluation) {
-  std::vector<std::uint32_t> labels;
-  std::vector<std::uint32_t> true_labels;
+LabelEvaluation MeasureLabels(const ClipTruth& truth,
+                              const std::vector<std::uint32_t>& labels,
+                              const std::vector<Eigen::Vector3f>& positions,
+                              const SurfaceMatch& surface,
+                              const ClassNumbers& numbers,
+                              double bleeding_reach) {
+  std::vector<std::uint32_t> found;
+  std::vector<std::uint32_t> expected;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const std::uint32_t instance = evaluation.surface.instance_of_point[i];
-    labels.push_back(numbers.OfLabel(result.labels[i]));
-    true_labels.push_back(instance == SurfaceMatch::kOffSurface ? kNothingThere
-                                                                : numbers.OfInstance(instance));
+    const std::uint32_t instance = surface.instance_of_point[i];
+    found.push_back(numbers.OfLabel(labels[i]));
+    expected.push_back(instance == SurfaceMatch::kOffSurface ? kNothingThere
+                                                             : numbers.OfInstance(instance));
   }
   std::vector<Eigen::Vector3f> object_points;
   std::vector<std::uint32_t> object_classes;
@@ -62,9 +62,9 @@ void MeasureLabels(const ClipTruth& truth,
     object_classes.push_back(number);
   }
   const auto num_classes = static_cast<std::uint32_t>(numbers.names().size());
-  evaluation.labels = ScoreLabels(labels, true_labels, num_classes);
-  evaluation.bleeding = MeasureBleeding(positions, labels, true_labels, object_points,
-                                        object_classes, bleeding_reach);
+  return {.labels = ScoreLabels(found, expected, num_classes),
+          .bleeding = MeasureBleeding(positions, found, expected, object_points, object_classes,
+                                      bleeding_reach)};
 }
 
 // Boxes of flat things have no volume to compare; what is thinner than the map can tell is
@@ -133,9 +133,25 @@ MapEvaluation EvaluateMap(const ClipTruth& truth,
   evaluation.surface = MatchToSurface(positions, truth.Surface(), options.surface);
   evaluation.classes = numbers.names();
   MeasureSegments(truth, result, positions, options.boundaries, evaluation);
-  MeasureLabels(truth, result, positions, numbers, options.bleeding_reach, evaluation);
+  const LabelEvaluation labels = MeasureLabels(truth, result.labels, positions, evaluation.surface,
+                                               numbers, options.bleeding_reach);
+  evaluation.labels = labels.labels;
+  evaluation.bleeding = labels.bleeding;
   MeasureObjects(truth, result, numbers, options, evaluation);
   return evaluation;
+}
+
+LabelEvaluation EvaluateLabels(const ClipTruth& truth,
+                               const MapResult& result,
+                               const std::vector<std::uint32_t>& labels,
+                               const MapEvaluation& evaluation,
+                               const MapEvaluationOptions& options) {
+  SEMSLAM_CHECK(labels.size() == result.positions.size());
+  SEMSLAM_CHECK(labels.size() == evaluation.surface.instance_of_point.size());
+  const ClassNumbers numbers(truth.instances, result.classes, options.classes);
+  return MeasureLabels(truth, labels,
+                       Moved(evaluation.trajectory.T_truth_estimate_map, result.positions),
+                       evaluation.surface, numbers, options.bleeding_reach);
 }
 
 }  // namespace semslam

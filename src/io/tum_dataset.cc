@@ -98,7 +98,10 @@ TumDataset::TumDataset(const std::filesystem::path& sequence,
 
 std::optional<RgbdImage> TumDataset::Next() {
   if (next_ == entries_.size()) return std::nullopt;
-  const Entry& entry = entries_[next_++];
+  return Read(entries_[next_++]);
+}
+
+RgbdImage TumDataset::Read(const Entry& entry) const {
   RgbdImage frame;
   frame.time = entry.color_time;
   frame.color = ReadColor(entry.color_path, options_);

@@ -23,7 +23,7 @@ class EvaluateTest(EndToEndTest):
     def setUpClass(cls):
         cls.summary = run("rgbd_tum", harness.VOCABULARY, CLIP / "settings.yaml", CLIP,
                           CLIP / "associations.txt", "--output", cls.result, "--sequential",
-                          "--detections", CLIP / "detections")
+                          "--detections", CLIP / "detections", "--save-detections")
 
     def assert_error(self, result, program, *words):
         """Exit code 1, and one line of error that has all the words."""
@@ -60,6 +60,30 @@ class EvaluateTest(EndToEndTest):
         self.assertGreater(measures["segmentation"]["adjusted_rand_index"], 0.5)
         self.assertGreater(measures["labels"]["accuracy"], 0.8)
         self.assertEqual([item["min_iou"] for item in measures["objects"]], [0.25, 0.5])
+
+    def test_simpler_ways_of_labelling_are_measured_too(self):
+        lines = (self.result / "KeyFrameTrajectory.txt").read_text().splitlines()
+        pictures = list((self.result / "detections").glob("*.jpg"))
+        self.assertEqual(len(pictures), sum(not line.startswith("#") for line in lines))
+        path = self.folder / "measures.json"
+        result = run("evaluate_map", CLIP, self.result, "--json", path,
+                     "--detections", self.result / "detections")
+        self.assert_success(result)
+        baselines = json.loads(path.read_text())["labels"]["baselines"]
+        self.assertEqual(list(baselines), ["painted boxes", "votes by point", "votes by segment"])
+        for name, measures in baselines.items():
+            self.assertRegex(result.stdout, rf"(?m)^{name} +\d\.\d+ +\d\.\d+ +\d\.\d+$")
+            self.assertGreater(measures["accuracy_on_objects"], 0.5, name)
+        self.assertGreater(baselines["painted boxes"]["bleeding"], 0.05)
+        self.assertLess(baselines["votes by segment"]["bleeding"],
+                        baselines["painted boxes"]["bleeding"])
+
+    def test_detections_of_other_classes_are_refused(self):
+        other = self.folder / "other"
+        shutil.copytree(self.result / "detections", other)
+        (other / "classes.names").write_text("person\ncar\n")
+        self.assert_error(run("evaluate_map", CLIP, self.result, "--detections", other),
+                          "evaluate_map", "classes.names", "expected the classes of the result")
 
     def test_the_same_map_gives_the_same_bytes(self):
         for name in ["first", "second"]:

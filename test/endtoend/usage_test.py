@@ -3,13 +3,15 @@
 """The command lines of the programs."""
 import unittest
 
-from harness import CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
+from harness import BIN, CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
 PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
             "evaluate_segmentation", "segment_cloud", "map_info"]
-OPTIONS = ["--output", "--network", "--detections", "--classes", "--score", "--no-semantics",
-           "--sequential", "--realtime", "--load-map", "--save-map", "--localization", "--help",
-           "--version"]
+if (BIN / "rgbd_openni2").exists():  # Only where OpenNI2 is installed.
+    PROGRAMS.append("rgbd_openni2")
+OPTIONS = ["--output", "--network", "--detections", "--save-detections", "--classes", "--score",
+           "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map", "--localization",
+           "--help", "--version"]
 
 
 class UsageTest(EndToEndTest):
@@ -59,6 +61,16 @@ class UsageTest(EndToEndTest):
         ]:
             with self.subTest(word=word):
                 self.assert_usage_error(run("rgbd_tum", *arguments), "rgbd_tum", word, "--help")
+
+    def test_saved_detections_need_a_detector_and_a_folder_of_their_own(self):
+        four = [VOCABULARY, CLIP / "settings.yaml", CLIP, CLIP / "associations.txt"]
+        for arguments, word in [
+                (["--save-detections"], "--network"),
+                (["--save-detections", "--detections", CLIP / "detections", "--output", CLIP],
+                 "overwritten"),
+        ]:
+            with self.subTest(word=word):
+                self.assert_usage_error(run("rgbd_tum", *four, *arguments), "rgbd_tum", word)
 
     def test_render_clip_refuses_what_it_cannot_render(self):
         for arguments, word in [

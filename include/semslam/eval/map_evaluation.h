@@ -50,6 +50,13 @@ struct MapEvaluationOptions {
   void Validate() const;  // Throws std::invalid_argument.
 };
 
+// How well the points' classes are those of the surfaces they lie on; points off the surface are
+// wrong, whatever they carry.
+struct LabelEvaluation {
+  LabelScore labels;
+  BleedingScore bleeding;
+};
+
 struct MapEvaluation {
   TrajectoryError trajectory;
   SurfaceMatch surface;
@@ -61,7 +68,7 @@ struct MapEvaluation {
   std::vector<RegionScore> regions;
 
   std::vector<std::string> classes;  // That were evaluated; the numbers below count from 1.
-  LabelScore labels;                 // Points off the surface are wrong, whatever they carry.
+  LabelScore labels;
   BleedingScore bleeding;
   // Box and centroid of the part that was seen: a map cannot hold more. Boxes, also those of the
   // found objects, are at least 1 cm thick.
@@ -79,5 +86,13 @@ struct MapEvaluation {
 MapEvaluation EvaluateMap(const ClipTruth& truth,
                           const MapResult& result,
                           const MapEvaluationOptions& options = {});
+
+// The same measures for other labels of the result's points, as baselines give them; `evaluation`
+// is that of the result with the same options.
+LabelEvaluation EvaluateLabels(const ClipTruth& truth,
+                               const MapResult& result,
+                               const std::vector<std::uint32_t>& labels,
+                               const MapEvaluation& evaluation,
+                               const MapEvaluationOptions& options = {});
 
 }  // namespace semslam

@@ -46,6 +46,8 @@ class TumDataset : public FrameSource {
   // Throws InputError, and goes on with the next frame in the next call, if an image is truncated,
   // damaged, of another size or of another type.
   std::optional<RgbdImage> Next() override;
+  // The frame of an entry; throws as Next does.
+  RgbdImage Read(const Entry& entry) const;
   std::optional<std::size_t> NumFrames() const override { return entries_.size(); }
 
   const std::vector<Entry>& entries() const { return entries_; }

@@ -27,9 +27,13 @@ struct SemanticObject {
   double confidence = 0;        // Share of the evidence that is for its class, in [0, 1].
   std::uint32_t num_views = 0;  // Keyframes in which the detector saw it.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres; mean of its points.
-  OrientedBox box;                                     // World.
+  // World. Of what stands on a level plane: upright, and down to the plane.
+  OrientedBox box;
   std::size_t num_points = 0;
   std::vector<SegmentId> segments;  // Ascending.
+  // What it stands on: a segment, and the object that is part of. 0: not known.
+  SegmentId supporting_segment = 0;
+  ObjectId supporting_object = 0;
 };
 
 // The map with a class for every point that has one. The vectors belong to the points of the map
