@@ -191,7 +191,7 @@ class FaultTest(LiveTest):
                                         self.folder / "clip.oni")
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("rgbd_openni2: the camera did not come back within 0.5 s", result.stderr)
-        self.assertGreater(len(self.assert_whole_files(output)), 20)
+        self.assertGreater(len(self.assert_whole_files(output)), 5)
         # What was recorded before can be played.
         self.assert_success(self.live("--device", self.folder / "clip.oni"))
 
