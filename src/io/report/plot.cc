@@ -205,7 +205,9 @@ std::string DrawLegend(const Plot& plot) {
 
 std::string DrawPlot(const Plot& plot) {
   const std::string title = EscapeHtml(plot.title);
-  std::string html = "<figure class=\"plot\"><h3>" + title + "</h3>";
+  std::string html =
+      plot.has_equal_axes ? "<figure class=\"plot tall\">" : "<figure class=\"plot\">";
+  html += "<h3>" + title + "</h3>";
   const Frame frame = FitFrame(plot);
   if (frame.x.is_empty()) return html + "<p class=\"muted\">Nothing was recorded.</p></figure>\n";
   html +=
