@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 namespace semslam {
 namespace {
@@ -32,6 +33,61 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
+}
+
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Counterclockwise, without points on its edges: Andrew's monotone chain.
+std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  std::vector<Eigen::Vector2d> hull;
+  const auto add_chain = [&hull](auto begin, auto end) {
+    const std::size_t first = hull.size();
+    for (auto point = begin; point != end; ++point) {
+      while (hull.size() >= first + 2 &&
+             Cross(hull.back() - hull[hull.size() - 2], *point - hull.back()) <= 0) {
+        hull.pop_back();
+      }
+      hull.push_back(*point);
+    }
+    hull.pop_back();  // The other chain begins with it.
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull.empty() ? std::vector<Eigen::Vector2d>{points.front()} : hull;
+}
+
+// The direction of the longer side of the rectangle of least area around the points: one of its
+// sides lies on an edge of the convex hull.
+Eigen::Vector2d LongSideOfLeastRectangle(const std::vector<Eigen::Vector2d>& points) {
+  const std::vector<Eigen::Vector2d> hull = ConvexHull(points);
+  double least_area = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d long_side = Eigen::Vector2d::UnitX();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    if (edge.norm() == 0) continue;
+    const Eigen::Vector2d along = edge.normalized();
+    const Eigen::Vector2d across(-along.y(), along.x());
+    Eigen::AlignedBox2d extent;
+    for (const Eigen::Vector2d& corner : hull) {
+      extent.extend(Eigen::Vector2d(along.dot(corner), across.dot(corner)));
+    }
+    if (extent.volume() >= least_area) continue;
+    least_area = extent.volume();
+    long_side = extent.sizes().x() >= extent.sizes().y() ? along : across;
+  }
+  return long_side;
+}
+
+// Around points with the axes that are the columns of a rotation.
+OrientedBox BoxWithAxes(std::span<const Eigen::Vector3d> points, const Eigen::Matrix3d& axes) {
+  Eigen::AlignedBox3d extent;
+  for (const Eigen::Vector3d& point : points) extent.extend(axes.transpose() * point);
+  return {{Eigen::Quaterniond(axes).normalized(), axes * extent.center()}, 0.5 * extent.sizes()};
 }
 
 // A box as a body in the frame that T_frame_box leads to. Bit k of a corner's index says on which
@@ -151,16 +207,23 @@ bool OrientedBox::Contains(const Eigen::Vector3d& p_world) const {
 
 OrientedBox FitOrientedBox(std::span<const Eigen::Vector3d> points) {
   if (points.empty()) return {};
-  const Eigen::Matrix3d axes = PrincipalAxes(points);
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d p = axes.transpose() * point;
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const Eigen::Vector3d center = 0.5 * (low + high);
-  return {{Eigen::Quaterniond(axes).normalized(), axes * center}, 0.5 * (high - low)};
+  return BoxWithAxes(points, PrincipalAxes(points));
+}
+
+OrientedBox FitUprightBox(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& up) {
+  if (points.empty()) return {};
+  const Eigen::Vector3d side = up.unitOrthogonal();
+  const Eigen::Vector3d other = up.cross(side);
+  std::vector<Eigen::Vector2d> ground;
+  ground.reserve(points.size());
+  for (const Eigen::Vector3d& point : points)
+    ground.emplace_back(side.dot(point), other.dot(point));
+  const Eigen::Vector2d long_side = LongSideOfLeastRectangle(ground);
+  Eigen::Matrix3d axes;
+  axes.col(0) = long_side.x() * side + long_side.y() * other;
+  axes.col(2) = up;
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return BoxWithAxes(points, axes);
 }
 
 double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b) {

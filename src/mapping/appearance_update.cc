@@ -35,7 +35,7 @@ bool Commit(const Update& update, Map& map) {
 }  // namespace
 
 void UpdateAppearances(SharedMap& shared_map, const std::vector<LandmarkId>& landmarks) {
-  constexpr std::size_t kNumPerLock = 256;  // Keeps each lock well below a millisecond.
+  constexpr std::size_t kNumPerLock = 64;  // Keeps each lock well below a millisecond.
   for (std::size_t first = 0; first < landmarks.size(); first += kNumPerLock) {
     const std::size_t count = std::min(landmarks.size() - first, kNumPerLock);
     const std::span<const LandmarkId> chunk(landmarks.data() + first, count);

@@ -19,7 +19,6 @@ struct LocalBundleOptions {
 
 struct LocalBundleReport {
   bool finished = false;  // Not interrupted, and committed.
-  double seconds = 0;
 };
 
 // Local bundle adjustment around a keyframe: it and its covisible keyframes move, with all

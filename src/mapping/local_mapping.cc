@@ -3,6 +3,7 @@
 
 #include "semslam/mapping/local_mapping.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -42,7 +43,7 @@ LocalMapping::LocalMapping(const Options& options,
 
 LocalMapping::Report LocalMapping::Process(KeyframeId keyframe,
                                            const std::function<bool()>& should_stop) {
-  const Stopwatch total;
+  Stopwatch step;
   Report report;
   report.keyframe = keyframe;
   if (!LookUpWords(keyframe)) {
@@ -56,23 +57,28 @@ LocalMapping::Report LocalMapping::Process(KeyframeId keyframe,
       TriangulateWithNeighbours(context, keyframe, options_.num_neighbours, should_stop);
   recent_landmarks_.insert(recent_landmarks_.end(), triangulated.begin(), triangulated.end());
   report.num_triangulated = static_cast<int>(triangulated.size());
+  report.triangulate_seconds = step.Seconds();
+  step.Restart();
   if (!should_stop()) {
     report.num_fused = FuseWithNeighbours(
         context, keyframe, {options_.num_neighbours, options_.num_second_neighbours});
   }
   UpdateAppearances(
       map_, map_.Read([&](const Map& map) { return map.LandmarksSeenBy(std::array{keyframe}); }));
+  report.fuse_seconds = step.Seconds();
+  step.Restart();
   if (!should_stop()) {
     const LocalBundleReport bundle = AdjustNeighbourhood(
         context, keyframe, {options_.min_shared, options_.max_adjusted_keyframes, options_.bundle},
         should_stop);
     report.adjusted = bundle.finished;
-    report.adjust_seconds = bundle.seconds;
+    report.adjust_seconds = step.Seconds();
+    step.Restart();
     report.keyframes_culled = CullRedundantKeyframes(
         context, keyframe,
         {options_.close_depth_m, options_.redundant_ratio, options_.min_redundant_views});
+    report.cull_seconds = step.Seconds();
   }
-  report.total_seconds = total.Seconds();
   return report;
 }
 
@@ -123,11 +129,14 @@ int LocalMapping::CullRecentLandmarks(KeyframeId current) {
     }
   });
   recent_landmarks_ = std::move(still_recent);
-  map_.Write([&](Map& map) {
-    for (const LandmarkId id : bad) {
-      if (map.FindLandmark(id) != nullptr) map.EraseLandmark(id);
-    }
-  });
+  constexpr std::size_t kNumPerLock = 32;
+  for (std::size_t first = 0; first < bad.size(); first += kNumPerLock) {
+    map_.Write([&](Map& map) {
+      for (std::size_t i = first; i < std::min(bad.size(), first + kNumPerLock); ++i) {
+        if (map.FindLandmark(bad[i]) != nullptr) map.EraseLandmark(bad[i]);
+      }
+    });
+  }
   return static_cast<int>(bad.size());
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/base/stopwatch.h"
 #include "semslam/mapping/full_bundle.h"
 
 namespace semslam {
@@ -50,6 +51,7 @@ System::System(const Settings& settings,
                const std::shared_ptr<const Vocabulary>& vocabulary,
                Options options)
     : log_(std::move(options.log)),
+      on_step_(std::move(options.on_step)),
       settings_text_(settings.text),
       camera_(settings.camera),
       vocabulary_(vocabulary),
@@ -84,7 +86,9 @@ System::System(const Settings& settings,
       loop_stage_({.threading = options.threading, .queue_capacity = kLoopQueueCapacity},
                   [this](KeyframeId keyframe) { CloseLoop(keyframe); }),
       mapping_stage_({.threading = options.threading, .queue_capacity = kMappingQueueCapacity},
-                     [this](const KeyframeJob& job) { MapKeyframe(job); }) {}
+                     [this](const KeyframeJob& job) { MapKeyframe(job); }) {
+  map_.ObserveWaits(std::move(options.on_map_wait));  // The threads have nothing to do yet.
+}
 
 System::~System() {
   mapping_stage_.Cancel();
@@ -99,9 +103,14 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   RethrowFailures();
   LogNewLoops();
   if (last_time_ && image->time <= *last_time_) return Skipped(*image);
+  const Stopwatch features;
   auto frame = std::make_shared<const Frame>(frame_builder_.Build(*image));
+  Tell(Step::kFeatures, features.Seconds());
   const MapperLoad load{mapping_stage_.idle(), static_cast<int>(mapping_stage_.queue_size())};
   Tracking::Result result = tracking_.Track(std::move(frame), load);
+  Tell(Step::kFirstPose, result.first_pose_seconds);
+  Tell(Step::kLocalMap, result.local_map_seconds);
+  Tell(Step::kNewKeyframe, result.keyframe_seconds);
   if (std::exchange(trajectory_is_loaded_, false)) trajectory_.Write([](auto& e) { e.clear(); });
   last_time_ = image->time;
   if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
@@ -132,13 +141,19 @@ void System::MapKeyframe(const KeyframeJob& job) {
   const auto newer_waits = [this] { return mapping_stage_.queue_size() > 0; };
   const LocalMapping::Report report = local_mapping_.Process(job.keyframe, newer_waits);
   if (report.is_void) return;
+  Tell(Step::kTriangulation, report.triangulate_seconds);
+  Tell(Step::kFusion, report.fuse_seconds);
+  if (report.adjust_seconds > 0) Tell(Step::kLocalBundle, report.adjust_seconds);
+  if (report.cull_seconds > 0) Tell(Step::kCulling, report.cull_seconds);
   if (loop_settings_.enabled) loop_stage_.Submit(job.keyframe);
   point_cloud_mapping_.InsertKeyframe(job.keyframe, job.image);
   if (detector_) detector_->Submit(job.keyframe, job.image);
 }
 
 void System::CloseLoop(KeyframeId keyframe) {
+  const Stopwatch stopwatch;
   const std::optional<LoopClosing::Loop> loop = loop_closing_.Process(keyframe);
+  Tell(Step::kLoop, stopwatch.Seconds());
   if (!loop) return;
   events_.Write([&](Events& e) { e.loops.push_back(*loop); });
   point_cloud_mapping_.FollowCorrection();
@@ -150,7 +165,10 @@ void System::CloseLoop(KeyframeId keyframe) {
 void System::AdjustAll() {
   BundleOptions options = loop_settings_.bundle;
   options.should_stop = [token = break_off_.get_token()] { return token.stop_requested(); };
-  if (!AdjustWholeMap(map_, stereo_, options).finished) return;
+  const Stopwatch stopwatch;
+  const bool finished = AdjustWholeMap(map_, stereo_, options).finished;
+  Tell(Step::kFullBundle, stopwatch.Seconds());
+  if (!finished) return;
   events_.Write([](Events& e) { ++e.num_full_bundles; });
   point_cloud_mapping_.FollowCorrection();
 }
@@ -253,6 +271,10 @@ DetectorThread::Statistics System::detector_statistics() const {
 
 void System::Log(LogLevel level, const std::string& message) const {
   if (log_) log_(level, "system", message);
+}
+
+void System::Tell(Step step, double seconds) const {
+  if (on_step_) on_step_(step, seconds);
 }
 
 }  // namespace semslam

@@ -3,6 +3,7 @@
 #include "semslam/place/keyframe_index.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "semslam/base/check.h"
 
@@ -10,7 +11,17 @@ namespace semslam {
 
 void KeyframeIndex::Add(KeyframeId keyframe, const BowVector& bow) {
   for (const BowVector::Entry& entry : bow.entries) {
-    occurrences_[entry.word].push_back({keyframe, entry.weight});
+    if (entry.word >= newest_.size()) newest_.resize(std::size_t{entry.word} + 1, kNone);
+    std::uint32_t& newest = newest_[entry.word];
+    const Occurrence occurrence{keyframe, entry.weight, newest};
+    if (free_ == kNone) {
+      newest = static_cast<std::uint32_t>(occurrences_.size());
+      occurrences_.push_back(occurrence);
+    } else {
+      newest = free_;
+      free_ = occurrences_[newest].next;
+      occurrences_[newest] = occurrence;
+    }
   }
   ++num_keyframes_;
 }
@@ -18,12 +29,15 @@ void KeyframeIndex::Add(KeyframeId keyframe, const BowVector& bow) {
 void KeyframeIndex::Erase(KeyframeId keyframe, const BowVector& bow) {
   SEMSLAM_CHECK(num_keyframes_ > 0) << "keyframe " << keyframe.value;
   for (const BowVector::Entry& entry : bow.entries) {
-    const auto word = occurrences_.find(entry.word);
-    SEMSLAM_CHECK(word != occurrences_.end()) << "keyframe " << keyframe.value;
-    const std::size_t num_erased = std::erase_if(
-        word->second, [keyframe](const Occurrence& o) { return o.keyframe == keyframe; });
-    SEMSLAM_CHECK(num_erased == 1) << "keyframe " << keyframe.value << ": " << num_erased;
-    if (word->second.empty()) occurrences_.erase(word);
+    SEMSLAM_CHECK(entry.word < newest_.size()) << "keyframe " << keyframe.value;
+    std::uint32_t* link = &newest_[entry.word];
+    while (*link != kNone && occurrences_[*link].keyframe != keyframe)
+      link = &occurrences_[*link].next;
+    SEMSLAM_CHECK(*link != kNone) << "keyframe " << keyframe.value;
+    const std::uint32_t erased = *link;
+    *link = occurrences_[erased].next;
+    occurrences_[erased].next = free_;
+    free_ = erased;
   }
   --num_keyframes_;
 }
@@ -32,9 +46,9 @@ std::vector<KeyframeIndex::Match> KeyframeIndex::FindSimilar(const BowVector& bo
   // Words in ascending order, as Score adds them up: the sums are the same to the last bit.
   std::unordered_map<KeyframeId, Match> found;
   for (const BowVector::Entry& entry : bow.entries) {
-    const auto word = occurrences_.find(entry.word);
-    if (word == occurrences_.end()) continue;
-    for (const Occurrence& occurrence : word->second) {
+    if (entry.word >= newest_.size()) break;  // Nor are there larger ones.
+    for (std::uint32_t i = newest_[entry.word]; i != kNone; i = occurrences_[i].next) {
+      const Occurrence& occurrence = occurrences_[i];
       Match& match = found[occurrence.keyframe];
       ++match.num_shared_words;
       match.score += std::min(entry.weight, occurrence.weight);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -83,6 +85,106 @@ void JoinAcrossBorders(const PatchGraph& graph,
   }
 }
 
+// By representative.
+std::vector<double> AreasOf(const PatchGraph& graph, DisjointSets& sets) {
+  std::vector<double> areas(graph.patches.size(), 0.0);
+  for (std::uint32_t i = 0; i < areas.size(); ++i) areas[sets.Find(i)] += graph.patches[i].area;
+  return areas;
+}
+
+// Distance between the nearest centroids of two sets of patches.
+double GapBetween(const PatchGraph& graph,
+                  const std::vector<std::uint32_t>& a,
+                  const std::vector<std::uint32_t>& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t i : a) {
+    for (const std::uint32_t j : b) {
+      least =
+          std::min(least, (graph.patches[i].centroid - graph.patches[j].centroid).squaredNorm());
+    }
+  }
+  return std::sqrt(least);
+}
+
+// Large pieces of one plane are one surface that something hides part of: a wall behind a monitor.
+void JoinAcrossGaps(const PatchGraph& graph,
+                    const std::vector<std::uint32_t>& plane_labels,
+                    const ComponentOptions& options,
+                    DisjointSets& sets,
+                    std::vector<bool>& is_structural) {
+  constexpr double kMinShare = 0.9;
+  const std::vector<double> areas = AreasOf(graph, sets);
+  struct Piece {
+    std::vector<std::uint32_t> patches;
+    double area = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Piece> pieces;  // By label, representative.
+  for (std::uint32_t i = 0; i < areas.size(); ++i) {
+    if (plane_labels[i] == 0) continue;
+    Piece& piece = pieces[{plane_labels[i], sets.Find(i)}];
+    piece.patches.push_back(i);
+    piece.area += graph.patches[i].area;
+  }
+  std::erase_if(pieces, [&](const auto& item) {
+    // Faces of things are no pieces of a wall.
+    const std::uint32_t representative = item.first.second;
+    const bool is_face =
+        !is_structural[representative] && item.second.area < kMinShare * areas[representative];
+    return is_face || item.second.area < options.min_piece_area;
+  });
+  const std::vector<bool> was_structural = is_structural;
+  for (auto a = pieces.begin(); a != pieces.end(); ++a) {
+    for (auto b = std::next(a); b != pieces.end() && b->first.first == a->first.first; ++b) {
+      const std::uint32_t first = a->first.second;
+      const std::uint32_t second = b->first.second;
+      if (!was_structural[first] && !was_structural[second]) continue;
+      if (GapBetween(graph, a->second.patches, b->second.patches) > options.max_gap) continue;
+      sets.Join(first, second);
+      is_structural[first] = is_structural[second] = true;
+    }
+  }
+}
+
+// What a fragment shares with the neighbour it shares most with.
+struct Attachment {
+  std::uint32_t neighbour = kNoComponent;
+  std::uint32_t num_contacts = 0;
+
+  void Offer(std::uint32_t other, std::uint32_t contacts) {
+    if (contacts <= num_contacts) return;  // Of equals the first.
+    neighbour = other;
+    num_contacts = contacts;
+  }
+};
+
+// Parts of things that are too small to be one join the neighbouring thing they touch most. All of
+// a round join at once, so that their order has no effect.
+void JoinFragments(const PatchGraph& graph,
+                   const std::vector<bool>& is_structural,
+                   double min_area,
+                   DisjointSets& sets) {
+  for (bool has_changed = true; has_changed;) {
+    const std::vector<double> areas = AreasOf(graph, sets);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> borders;
+    for (const PatchEdge& edge : graph.edges) {
+      const std::uint32_t a = sets.Find(edge.a);
+      const std::uint32_t b = sets.Find(edge.b);
+      if (a == b || is_structural[a] || is_structural[b]) continue;
+      borders[std::minmax(a, b)] += edge.num_contacts;
+    }
+    std::map<std::uint32_t, Attachment> attachments;
+    for (const auto& [pair, num_contacts] : borders) {
+      const auto [a, b] = pair;
+      if (areas[a] < min_area) attachments[a].Offer(b, num_contacts);
+      if (areas[b] < min_area) attachments[b].Offer(a, num_contacts);
+    }
+    for (const auto& [fragment, attachment] : attachments) {
+      sets.Join(fragment, attachment.neighbour);
+    }
+    has_changed = !attachments.empty();
+  }
+}
+
 // By representative: whether it is a plane of structural size.
 std::vector<bool> FindStructural(const PatchGraph& graph,
                                  const std::vector<std::uint32_t>& plane_labels,
@@ -115,7 +217,7 @@ std::uint32_t PlaneOf(const Component& component,
 Components Collect(const PatchGraph& graph,
                    const std::vector<std::uint32_t>& plane_labels,
                    const std::vector<bool>& is_structural,
-                   std::size_t min_patches,
+                   const ComponentOptions& options,
                    DisjointSets& sets) {
   std::vector<Component> by_representative(graph.patches.size());
   for (std::uint32_t i = 0; i < graph.patches.size(); ++i) {
@@ -128,7 +230,9 @@ Components Collect(const PatchGraph& graph,
   result.component_of_patch.assign(graph.patches.size(), kNoComponent);
   for (std::uint32_t i = 0; i < by_representative.size(); ++i) {
     Component& component = by_representative[i];
-    if (component.patches.size() < std::max<std::size_t>(min_patches, 1)) continue;
+    if (component.patches.empty()) continue;
+    if (component.patches.size() < options.min_patches && component.area < options.min_area)
+      continue;
     component.plane_label = PlaneOf(component, graph, plane_labels);
     for (const std::uint32_t patch : component.patches) {
       result.component_of_patch[patch] = static_cast<std::uint32_t>(result.components.size());
@@ -153,7 +257,7 @@ Components FindComponents(const PatchGraph& graph,
   for (const PatchEdge& edge : graph.edges) {
     if (IsOn(graph, edge, plane_labels, options)) sets.Join(edge.a, edge.b);
   }
-  const std::vector<bool> is_structural =
+  std::vector<bool> is_structural =
       FindStructural(graph, plane_labels, options.min_structural_area, sets);
   JoinAcrossBorders(
       graph,
@@ -165,7 +269,9 @@ Components FindComponents(const PatchGraph& graph,
   JoinAcrossBorders(
       graph, [&](std::uint32_t a, std::uint32_t b) { return is_structural[a] && is_structural[b]; },
       [&](const Patch& a, const Patch& b) { return IsFlush(a, b, options); }, sets);
-  return Collect(graph, plane_labels, is_structural, options.min_patches, sets);
+  JoinAcrossGaps(graph, plane_labels, options, sets, is_structural);
+  JoinFragments(graph, is_structural, options.min_thing_area, sets);
+  return Collect(graph, plane_labels, is_structural, options, sets);
 }
 
 }  // namespace semslam

@@ -34,7 +34,9 @@ bool IsConvex(const Patch& a, const Patch& b, const ComponentOptions& options);
 // Connected components of the graph, over edges between patches of one plane and convex edges
 // between patches of none. Then components that are no structural planes are joined where most of
 // their common border is convex, so that the faces of a box come together, and structural planes
-// where most of it is flush, so that a warped floor stays one. `plane_labels`: 0 for none.
+// where most of it is flush, so that a warped floor stays one, and also where they are large pieces
+// of one plane that something hides part of. At last fragments too small to be a thing join the
+// thing they touch most. `plane_labels`: 0 for none.
 Components FindComponents(const PatchGraph& graph,
                           const std::vector<std::uint32_t>& plane_labels,
                           const ComponentOptions& options);

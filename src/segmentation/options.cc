@@ -37,6 +37,8 @@ void Check(const SupervoxelOptions& options) {
           "supervoxels.seed_spacing", options.seed_spacing, "the size of a voxel at least");
   RequireNotNegative("supervoxels.spatial_weight", options.spatial_weight);
   RequireNotNegative("supervoxels.normal_weight", options.normal_weight);
+  RequireNotNegative("supervoxels.offset_weight", options.offset_weight);
+  RequireNotNegative("supervoxels.offset_tolerance", options.offset_tolerance);
   Require(options.num_passes >= 1, "supervoxels.num_passes", options.num_passes, "1 at least");
 }
 
@@ -67,10 +69,21 @@ void Check(const PlaneAssignmentOptions& options) {
   RequireNotNegative("assignment.max_sweeps", options.max_sweeps);
 }
 
+void Check(const ReliefOptions& options) {
+  RequirePositive("relief.min_height", options.min_height);
+  RequireNotNegative("relief.noise_factor", options.noise_factor);
+  RequirePositive("relief.reference_radius", options.reference_radius);
+  RequireNotNegative("relief.min_area", options.min_area);
+}
+
 void Check(const ComponentOptions& options) {
   RequireNotNegative("components.concavity_tolerance", options.concavity_tolerance);
   RequireNotNegative("components.step_tolerance", options.step_tolerance);
   RequireNotNegative("components.min_structural_area", options.min_structural_area);
+  RequireNotNegative("components.min_thing_area", options.min_thing_area);
+  RequireNotNegative("components.min_area", options.min_area);
+  RequireNotNegative("components.min_piece_area", options.min_piece_area);
+  RequireNotNegative("components.max_gap", options.max_gap);
   RequireNotNegative("components.flush_tolerance", options.flush_tolerance);
   RequireNotNegative("components.min_core_area", options.min_core_area);
   RequireNotNegative("components.warp_tolerance", options.warp_tolerance);
@@ -83,6 +96,7 @@ void Segmenter::Options::Validate() const {
   Check(planes);
   Check(selection);
   Check(assignment);
+  Check(relief);
   Check(components);
   Require(num_threads >= 0, "num_threads", num_threads, "0 or more");
 }

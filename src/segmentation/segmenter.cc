@@ -12,6 +12,7 @@
 #include "segmentation/plane_hypotheses.h"
 #include "segmentation/plane_scores.h"
 #include "segmentation/plane_selection.h"
+#include "segmentation/relief.h"
 #include "segmentation/summary.h"
 #include "segmentation/supervoxels.h"
 #include "segmentation/surface_growth.h"
@@ -60,9 +61,9 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   result.times.voxels = Lap(watch);
   const std::vector<Eigen::Vector3f> normals = ComputeVoxelNormals(grid, num_threads);
   result.times.normals = Lap(watch);
-  const Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
+  Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
   result.times.supervoxels = Lap(watch);
-  const PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
+  PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.patches = Lap(watch);
 
   std::vector<Plane> planes = ProposePlanes(graph.patches, options_.planes, num_threads);
@@ -75,6 +76,12 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
       AssignPlanes(graph, planes, options_.planes, options_.assignment);
   plane_labels = GrowSurfaces(graph, planes, std::move(plane_labels), options_.components);
   result.times.assignment = Lap(watch);
+  CutPatches cut = CutAtRelief(grid, supervoxels, graph, planes, plane_labels,
+                               options_.components.min_structural_area, options_.relief);
+  supervoxels = std::move(cut.supervoxels);
+  plane_labels = std::move(cut.plane_labels);
+  graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
+  result.times.relief = Lap(watch);
 
   const Components components = FindComponents(graph, plane_labels, options_.components);
   const std::vector<SegmentId> segment_of_voxel = SegmentOfVoxels(supervoxels, components);
@@ -90,8 +97,8 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
 }
 
 double SegmentationTimes::Total() const {
-  return voxels + normals + supervoxels + patches + planes + selection + assignment + components +
-         summary;
+  return voxels + normals + supervoxels + patches + planes + selection + assignment + relief +
+         components + summary;
 }
 
 }  // namespace semslam

@@ -112,6 +112,8 @@ class Growth {
       : grid_(grid),
         spatial_factor_(static_cast<float>(options.spatial_weight / options.seed_spacing)),
         normal_factor_(static_cast<float>(options.normal_weight)),
+        offset_factor_(static_cast<float>(options.offset_weight / options.seed_spacing)),
+        offset_tolerance_(static_cast<float>(options.offset_tolerance)),
         voxels_(grid.size()) {
     for (std::size_t i = 0; i < grid.size(); ++i) {
       voxels_[i].position = grid.centroids[i];
@@ -181,8 +183,10 @@ class Growth {
       Voxel& voxel = voxels_[index];
       if (voxel.patch != kNoPatch) continue;
       const float cosine = std::clamp(voxel.normal.dot(normal), -1.0F, 1.0F);
+      const Eigen::Vector3f away = voxel.position - mean;
+      const float offset = std::max(std::abs(normal.dot(away)) - offset_tolerance_, 0.0F);
       const float distance =
-          spatial_factor_ * (voxel.position - mean).norm() + normal_factor_ * (1 - cosine);
+          spatial_factor_ * away.norm() + normal_factor_ * (1 - cosine) + offset_factor_ * offset;
       if (distance >= voxel.best_offer) continue;
       voxel.best_offer = distance;
       queue.Push(distance, {index, entry.patch});
@@ -192,6 +196,8 @@ class Growth {
   const VoxelGrid& grid_;
   float spatial_factor_;
   float normal_factor_;
+  float offset_factor_;
+  float offset_tolerance_;
   std::vector<Voxel> voxels_;
 };
 

@@ -154,12 +154,16 @@ class KeyframeJudge {
       const double inside_share =
           double(overlap.num_inside) / double(visibility_[segment].num_pixels);
       largest_inside_share_[segment] = std::max(largest_inside_share_[segment], inside_share);
-      if (inside_share < options_.min_inside_share || overlap.num_foreground == 0) continue;
+      if (inside_share < options_.min_inside_share) continue;
       if (!IsSeen(segment, options_.min_visible_share)) continue;
       const double filled_share = double(overlap.num_foreground) / double(num_foreground);
       AddGain(segment, detection, inside_share, overlap, filled_share >= options_.min_filled_share);
-      // Half or more of it is the object's, not something before or behind it.
-      if (2 * overlap.num_foreground >= overlap.num_inside) held.push_back(segment);
+      // Half or more of it is the object's, or it is seen beside it only where the box is: a foot
+      // whose neck is hidden.
+      if (2 * overlap.num_foreground >= overlap.num_inside ||
+          inside_share >= options_.min_enclosed_share) {
+        held.push_back(segment);
+      }
     }
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = i + 1; j < held.size(); ++j) {
@@ -173,18 +177,20 @@ class KeyframeJudge {
                double inside_share,
                const Overlap& overlap,
                bool fills_enough) {
-    const double agreement = double(overlap.num_foreground) / double(overlap.num_inside);
-    const double border = overlap.border_factor / double(overlap.num_foreground);
-    const double weight = inside_share * agreement * border;
+    // The mean over its pixels inside the box: of the border factor in the foreground, 0 elsewhere.
+    const double weight = inside_share * overlap.border_factor / double(overlap.num_inside);
+    const bool is_enclosed = inside_share >= options_.min_enclosed_share;
+    const double part_weight = is_enclosed ? std::max(weight, options_.enclosed_weight) : weight;
     Gain& gain = gains_[segment];
     gain.alpha.resize(classes_.size());
     gain.part_alpha.resize(classes_.size());
     gain.is_seen_as.resize(classes_.size());
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      const double alpha = static_cast<double>(detection.class_scores[c]) * weight;
-      if (alpha <= 0 || !CanBe(segment, static_cast<int>(c))) continue;
-      gain.part_alpha[c] = std::max(gain.part_alpha[c], alpha);
-      if (!fills_enough) continue;
+      if (!CanBe(segment, static_cast<int>(c))) continue;
+      const auto score = static_cast<double>(detection.class_scores[c]);
+      gain.part_alpha[c] = std::max(gain.part_alpha[c], score * part_weight);
+      const double alpha = score * weight;
+      if (!fills_enough || alpha <= 0) continue;
       gain.alpha[c] = std::max(gain.alpha[c], alpha);
       if (static_cast<int>(c) == detection.class_id) gain.is_seen_as[c] = true;
     }
@@ -232,7 +238,8 @@ void EvidenceOptions::Validate() const {
   };
   const auto is_share = [](double value) { return value >= 0 && value <= 1; };
   require(is_share(min_inside_share) && is_share(min_filled_share) && is_share(border_share) &&
-              is_share(border_weight) && is_share(min_visible_share) &&
+              is_share(border_weight) && is_share(min_enclosed_share) &&
+              is_share(enclosed_weight) && is_share(min_visible_share) &&
               is_share(min_visible_share_background),
           "expected shares in [0, 1]");
   require(core_share > 0 && core_share <= 1, "expected 0 < core_share <= 1");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -33,6 +34,16 @@ Best FindBest(const std::vector<std::int64_t>& alpha, std::int64_t background) {
   return best;
 }
 
+std::vector<Eigen::Vector3f> PointsNear(const std::vector<Eigen::Vector3f>& points,
+                                        const Eigen::AlignedBox3f& box,
+                                        float reach) {
+  std::vector<Eigen::Vector3f> near;
+  std::copy_if(
+      points.begin(), points.end(), std::back_inserter(near),
+      [&](const Eigen::Vector3f& p) { return box.squaredExteriorDistance(p) <= reach * reach; });
+  return near;
+}
+
 // Works on the segments' evidence; the parts of an object are kept as a forest.
 class Labeller {
  public:
@@ -46,10 +57,13 @@ class Labeller {
         classes_(classes),
         options_(options),
         labels_(segmentation.segments.size()),
+        points_(segmentation.segments.size()),
         extents_(segmentation.segments.size()) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const SegmentId segment = segmentation.segment_of_point[i];
-      if (segment != 0) extents_[segment - 1].extend(cloud.positions[i]);
+      if (segment == 0) continue;
+      points_[segment - 1].push_back(cloud.positions[i]);
+      extents_[segment - 1].extend(cloud.positions[i]);
     }
   }
 
@@ -96,8 +110,19 @@ class Labeller {
   bool LieTogether(SegmentId a, SegmentId b) const {
     const auto& neighbours = segmentation_.segments[a - 1].neighbours;
     if (std::binary_search(neighbours.begin(), neighbours.end(), b)) return true;
-    const auto gap = static_cast<double>(extents_[a - 1].exteriorDistance(extents_[b - 1]));
-    return gap <= options_.max_part_gap;
+    const float size =
+        std::max(extents_[a - 1].sizes().maxCoeff(), extents_[b - 1].sizes().maxCoeff());
+    const float max_gap = std::max(static_cast<float>(options_.max_part_gap),
+                                   static_cast<float>(options_.max_relative_part_gap) * size);
+    const std::vector<Eigen::Vector3f> near_b =
+        PointsNear(points_[a - 1], extents_[b - 1], max_gap);
+    const std::vector<Eigen::Vector3f> near_a =
+        PointsNear(points_[b - 1], extents_[a - 1], max_gap);
+    return std::any_of(near_b.begin(), near_b.end(), [&](const Eigen::Vector3f& p) {
+      return std::any_of(near_a.begin(), near_a.end(), [&](const Eigen::Vector3f& q) {
+        return (p - q).squaredNorm() <= max_gap * max_gap;
+      });
+    });
   }
 
   void Join(SegmentId a, SegmentId b) {
@@ -179,7 +204,8 @@ class Labeller {
   const ClassTable& classes_;
   const FusionOptions& options_;
   std::vector<SegmentLabel> labels_;
-  std::vector<Eigen::AlignedBox3f> extents_;  // In world axes.
+  std::vector<std::vector<Eigen::Vector3f>> points_;  // By segment.
+  std::vector<Eigen::AlignedBox3f> extents_;          // In world axes.
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "semslam/base/error.h"
 
 #include "semantics/label_segments.h"
+#include "semantics/support.h"
 
 namespace semslam {
 namespace {
@@ -20,7 +21,9 @@ namespace {
 // Segments with one root are parts of one object.
 std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
                                         const MapCloud& cloud,
+                                        const VoxelIndex& index,
                                         const Segmentation& segmentation) {
+  const SupportFinder supports(index, segmentation);
   std::map<SegmentId, std::vector<SegmentId>> parts_of;  // By root.
   for (SegmentId segment = 1; segment <= labels.size(); ++segment) {
     const SegmentLabel& label = labels[segment - 1];
@@ -46,7 +49,8 @@ std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
     object.centroid =
         std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
         static_cast<double>(points.size());
-    object.box = FitOrientedBox(points);
+    object.supporting_segment = supports.FindSupport(points, object.segments);
+    object.box = supports.FitBox(points, object.supporting_segment);
     objects.push_back(std::move(object));
   }
   return objects;
@@ -94,11 +98,19 @@ void NumberObjects(const SemanticMap* previous, double max_object_shift, Semanti
             [](const SemanticObject& a, const SemanticObject& b) { return a.id < b.id; });
 }
 
-void LabelPoints(const std::vector<SegmentLabel>& labels, SemanticMap& map) {
-  std::vector<ObjectId> object_of_segment(labels.size() + 1, 0);
-  for (const SemanticObject& object : map.objects) {
+// After NumberObjects.
+std::vector<ObjectId> ObjectOfSegment(const std::vector<SemanticObject>& objects,
+                                      std::size_t num_segments) {
+  std::vector<ObjectId> object_of_segment(num_segments + 1, 0);
+  for (const SemanticObject& object : objects) {
     for (const SegmentId segment : object.segments) object_of_segment[segment] = object.id;
   }
+  return object_of_segment;
+}
+
+void LabelPoints(const std::vector<SegmentLabel>& labels,
+                 const std::vector<ObjectId>& object_of_segment,
+                 SemanticMap& map) {
   const std::size_t num_points = map.segment_of_point.size();
   map.class_of_point.assign(num_points, kNoClass);
   map.confidence_of_point.assign(num_points, 0.0F);
@@ -122,7 +134,7 @@ void FusionOptions::Validate() const {
   require(min_confidence >= 0 && min_confidence <= 1, "expected min_confidence in [0, 1]");
   require(min_evidence >= 0, "expected min_evidence >= 0");
   require(min_shared_share > 0 && min_shared_share <= 1, "expected 0 < min_shared_share <= 1");
-  require(max_part_gap >= 0, "expected max_part_gap >= 0");
+  require(max_part_gap >= 0 && max_relative_part_gap >= 0, "expected part gaps of at least 0");
   require(max_object_shift >= 0, "expected max_object_shift >= 0");
 }
 
@@ -143,9 +155,13 @@ SemanticMap BuildSemanticMap(const MapCloud& cloud,
   SemanticMap map;
   map.classes = classes;
   map.segment_of_point = segmentation.segment_of_point;
-  map.objects = MakeObjects(labels, cloud, segmentation);
+  map.objects = MakeObjects(labels, cloud, index, segmentation);
   NumberObjects(previous, options.max_object_shift, map);
-  LabelPoints(labels, map);
+  const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());
+  for (SemanticObject& object : map.objects) {
+    object.supporting_object = object_of_segment[object.supporting_segment];
+  }
+  LabelPoints(labels, object_of_segment, map);
   return map;
 }
 

@@ -10,6 +10,7 @@
 #include "semslam/base/check.h"
 
 #include "tracking/frame_matching.h"
+#include "tracking/pose_from_pixels.h"
 
 namespace semslam {
 namespace {
@@ -53,6 +54,7 @@ class PairCheck {
 void FrameLocator::Options::Validate() const {
   SEMSLAM_CHECK(min_word_matches > 0) << min_word_matches;
   SEMSLAM_CHECK(min_pose_inliers > 0 && min_inliers > 0) << min_pose_inliers << ", " << min_inliers;
+  SEMSLAM_CHECK(min_found_share >= 0 && min_found_share < 1) << min_found_share;
   ransac.Validate();
 }
 
@@ -84,11 +86,13 @@ std::optional<TrackedFrame> FrameLocator::Locate(const std::shared_ptr<const Fra
   std::optional<TrackedFrame> located = MatchPlace(frame, words, *place);
   if (!located) return std::nullopt;
   // Once more from the better pose if it is not enough yet.
-  int num_inliers = SearchNeighbourhood(place_id, &*located);
-  if (num_inliers >= options_.min_pose_inliers && num_inliers < options_.min_inliers) {
-    num_inliers = SearchNeighbourhood(place_id, &*located);
+  Support support = SearchNeighbourhood(place_id, &*located);
+  if (support.num_inliers >= options_.min_pose_inliers &&
+      support.num_inliers < options_.min_inliers) {
+    support = SearchNeighbourhood(place_id, &*located);
   }
-  if (num_inliers < options_.min_inliers) return std::nullopt;
+  if (support.num_inliers < options_.min_inliers) return std::nullopt;
+  if (support.num_inliers < options_.min_found_share * support.num_visible) return std::nullopt;
   return located;
 }
 
@@ -99,6 +103,18 @@ std::optional<TrackedFrame> FrameLocator::MatchPlace(const std::shared_ptr<const
   const std::vector<FeatureMatch> matches = MatchKnownKeyframe(place, *frame, words, *vocabulary_);
   if (static_cast<int>(matches.size()) < options_.min_word_matches) return std::nullopt;
 
+  std::optional<TrackedFrame> located = FromDepth(frame, matches, place);
+  if (!located) located = FromPixels(frame, matches, place);
+  if (!located ||
+      OptimizeAndDropOutliers(stereo_, scale_space_, &*located) < options_.min_pose_inliers) {
+    return std::nullopt;
+  }
+  return located;
+}
+
+std::optional<TrackedFrame> FrameLocator::FromDepth(const std::shared_ptr<const Frame>& frame,
+                                                    std::span<const FeatureMatch> matches,
+                                                    const KnownKeyframe& place) const {
   std::vector<Pair> pairs;
   std::vector<Eigen::Vector3d> p_world;
   std::vector<Eigen::Vector3d> p_camera;
@@ -122,14 +138,34 @@ std::optional<TrackedFrame> FrameLocator::MatchPlace(const std::shared_ptr<const
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (consensus->is_inlier[i] != 0) located.points[pairs[i].feature] = pairs[i].point;
   }
-  if (OptimizeAndDropOutliers(stereo_, scale_space_, &located) < options_.min_pose_inliers) {
-    return std::nullopt;
+  return located;
+}
+
+// Where the sensor sees no depth: too far, too close, or against the light.
+std::optional<TrackedFrame> FrameLocator::FromPixels(const std::shared_ptr<const Frame>& frame,
+                                                     std::span<const FeatureMatch> matches,
+                                                     const KnownKeyframe& place) const {
+  constexpr double kMaxPixels = 8;
+  std::vector<Eigen::Vector3d> p_world;
+  std::vector<Eigen::Vector2d> pixels;
+  for (const FeatureMatch& match : matches) {
+    p_world.push_back(place.points[match.query]->p_world);
+    pixels.push_back(frame->keypoints[match.feature].pixel.cast<double>());
+  }
+  const std::optional<PixelConsensus> consensus =
+      FindPoseFromPixels(camera_, p_world, pixels, kMaxPixels, options_.ransac);
+  if (!consensus) return std::nullopt;
+  TrackedFrame located = EmptyFrame(frame, consensus->T_world_camera);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (consensus->is_inlier[i] != 0)
+      located.points[matches[i].feature] = place.points[matches[i].query];
   }
   return located;
 }
 
-// Returns how many landmarks of the place and around it agree with the pose.
-int FrameLocator::SearchNeighbourhood(KeyframeId place, TrackedFrame* located) const {
+// Looks for the landmarks of the place and around it.
+FrameLocator::Support FrameLocator::SearchNeighbourhood(KeyframeId place,
+                                                        TrackedFrame* located) const {
   constexpr float kRadiusFactor = 4.0F;  // Windows of 10 pixels and more.
   const std::vector<LandmarkCopy> landmarks = map_.Read([&](const Map& map) {
     if (map.FindKeyframe(place) == nullptr) return std::vector<LandmarkCopy>();
@@ -137,8 +173,11 @@ int FrameLocator::SearchNeighbourhood(KeyframeId place, TrackedFrame* located) c
     keyframes.push_back(place);
     return map.CopyLandmarksSeenBy(keyframes);
   });
-  SearchLandmarks(landmarks, {camera_, stereo_.bf, scale_space_}, kRadiusFactor, located);
-  return OptimizeAndDropOutliers(stereo_, scale_space_, located);
+  const int num_shown = located->NumLandmarks();
+  const std::vector<LandmarkId> searched =
+      SearchLandmarks(landmarks, {camera_, stereo_.bf, scale_space_}, kRadiusFactor, located);
+  return {OptimizeAndDropOutliers(stereo_, scale_space_, located),
+          num_shown + static_cast<int>(searched.size())};
 }
 
 }  // namespace semslam

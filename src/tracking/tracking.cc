@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "semslam/base/check.h"
+#include "semslam/base/stopwatch.h"
 #include "semslam/map/similar_places.h"
 
 #include "tracking/frame_matching.h"
@@ -82,7 +83,20 @@ void Tracking::StartInLoadedMap() {
 Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper) {
   SEMSLAM_CHECK(frame != nullptr);
   if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
+  const Stopwatch stopwatch;
+  first_pose_seconds_ = local_map_seconds_ = 0;
+  Result result = TrackInMap(std::move(frame), mapper);
+  result.first_pose_seconds = first_pose_seconds_;
+  result.local_map_seconds = local_map_seconds_;
+  result.keyframe_seconds = stopwatch.Seconds() - first_pose_seconds_ - local_map_seconds_;
+  return result;
+}
+
+Tracking::Result Tracking::TrackInMap(std::shared_ptr<const Frame> frame,
+                                      const MapperLoad& mapper) {
+  const Stopwatch stopwatch;
   BringLastFrameUpToDate();
+  first_pose_seconds_ += stopwatch.Seconds();
   std::optional<Located> located = Locate(frame);
   if (map_.Read([&](const Map& map) { return map.epoch() != epoch_; })) {
     // A correction moved the map under the search: once more, where everything is now.
@@ -95,12 +109,16 @@ Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const Mappe
 
 // The frame's pose in the local map, if enough agrees with it.
 std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Frame>& frame) {
+  Stopwatch stopwatch;
   std::optional<TrackedFrame> current;
   if (state_ == TrackingState::kTracking) current = PredictAndMatch(frame);
   const bool is_lost = !current;
   if (is_lost) current = Relocalize(frame);
+  first_pose_seconds_ += stopwatch.Seconds();
   if (!current) return std::nullopt;
+  stopwatch.Restart();
   const int num_inliers = TrackLocalMap(&*current);
+  local_map_seconds_ += stopwatch.Seconds();
   const bool was_lost_lately =
       is_lost || num_frames_since_found_ < options_.keyframes.max_frames_between;
   if (num_inliers < (was_lost_lately ? options_.min_inliers_after_loss : options_.min_inliers)) {

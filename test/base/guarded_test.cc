@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/base/guarded.h"
 
+#include <chrono>
 #include <latch>
+#include <map>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -45,6 +49,44 @@ TEST(Guarded, LetsSeveralReadersInAtOnce) {
   const auto read = [&] { value.Read([&](int) { both_inside.arrive_and_wait(); }); };
   const std::jthread a(read);
   const std::jthread b(read);
+}
+
+TEST(Guarded, TellsTheObserverHowLongAThreadWaitedForAnother) {
+  Guarded<int> value(0);
+  struct Seen {
+    std::mutex mutex;
+    std::map<std::thread::id, double> seconds;
+  } seen;
+  value.ObserveWaits([&seen](double seconds) {
+    const std::scoped_lock lock(seen.mutex);
+    seen.seconds[std::this_thread::get_id()] = seconds;
+  });
+  constexpr double kHeldSeconds = 0.03;
+  std::latch is_held(1);
+  std::jthread holder([&] {
+    value.Write([&](int&) {
+      is_held.count_down();
+      std::this_thread::sleep_for(std::chrono::duration<double>(kHeldSeconds));
+    });
+  });
+  const std::thread::id holder_id = holder.get_id();
+  is_held.wait();
+  value.Read([](int) {});
+  holder.join();
+  EXPECT_GT(seen.seconds.at(std::this_thread::get_id()), kHeldSeconds / 3);
+  EXPECT_LT(seen.seconds.at(holder_id), kHeldSeconds / 3);
+}
+
+TEST(Guarded, HasGivenItsLockBackWhenItTellsTheObserver) {
+  Guarded<int> value(0);
+  bool is_free = false;
+  bool was_told = false;
+  value.ObserveWaits([&](double) {
+    if (std::exchange(was_told, true)) return;
+    std::jthread([&] { value.Write([&](int&) { is_free = true; }); }).join();
+  });
+  value.Write([](int&) {});
+  EXPECT_TRUE(is_free);
 }
 
 }  // namespace

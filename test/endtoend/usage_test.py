@@ -6,10 +6,11 @@ import unittest
 from harness import CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
 PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
-            "evaluate_segmentation", "segment_cloud", "map_info"]
+            "evaluate_segmentation", "segment_cloud", "map_info", "benchmark_slam",
+            "train_vocabulary"]
 OPTIONS = ["--output", "--network", "--detections", "--save-detections", "--classes", "--score",
-           "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map", "--localization",
-           "--help", "--version"]
+           "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
+           "--localization", "--help", "--version"]
 
 
 class UsageTest(EndToEndTest):

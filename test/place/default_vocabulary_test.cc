@@ -17,8 +17,8 @@ std::filesystem::path DefaultVocabulary() {
   return std::filesystem::path(SEMSLAM_SOURCE_DIR) / "Vocabulary" / "orb.voc";
 }
 
-TEST(DefaultVocabulary, HasTenThousandWordsAndKeepsTheRepositorySmall) {
-  EXPECT_GE(Vocabulary::Load(DefaultVocabulary()).num_words(), 10'000u);
+TEST(DefaultVocabulary, HasAHundredThousandWordsAndKeepsTheRepositorySmall) {
+  EXPECT_GE(Vocabulary::Load(DefaultVocabulary()).num_words(), 100'000u);
   EXPECT_LE(std::filesystem::file_size(DefaultVocabulary()), 6'000'000u);
 }
 

@@ -65,8 +65,8 @@ TEST(Components, ContactsAlongTheLineOfIntersectionAreNotConvex) {
   EXPECT_FALSE(IsConvex(a, b, ComponentOptions()));
 }
 
-TEST(Components, SinglePatchesAreUnassigned) {
-  const auto flat = [](double x) { return MakePatch({x, 0, 0}, {0, 0, 1}); };
+TEST(Components, CrumbsAreUnassigned) {
+  const auto flat = [](double x) { return MakePatch({x, 0, 0}, {0, 0, 1}, 0.001); };
   PatchGraph graph = Row({flat(0), flat(0.08)});
   graph.patches.push_back(flat(1));
   const Components components = FindComponents(graph, {0, 0, 0}, ComponentOptions());
@@ -119,6 +119,60 @@ TEST(Components, WarpedFloorOfTwoPlanesIsOne) {
   ASSERT_EQ(components.components.size(), 1U);
   EXPECT_TRUE(components.components[0].is_structural);
   EXPECT_NE(components.components[0].plane_label, 0U);
+}
+
+TEST(Components, AThingOfOnePatchOnATableIsASegment) {
+  PatchGraph graph = FloorAndWall(1, 0.2);
+  graph.patches.resize(4);
+  graph.edges.resize(3);
+  graph.patches.push_back(MakePatch({-0.04, 0, 0.03}, {0, 0, 1}, 0.005));
+  graph.edges.push_back({3, 4, 10});
+  const Components components = FindComponents(graph, {1, 1, 1, 1, 0}, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 2U);
+  EXPECT_EQ(components.components[1].patches, std::vector<std::uint32_t>{4});
+}
+
+TEST(Components, FragmentsJoinTheThingTheyTouchMostAndNoTable) {
+  PatchGraph graph;
+  for (int i = 0; i < 3; ++i) graph.patches.push_back(MakePatch({0.5 * i, 0, 0}, {0, 0, 1}, 0.3));
+  graph.patches.push_back(MakePatch({0.7, 0, 0.1}, {0, 1, 0}, 0.004));
+  graph.edges = {{0, 3, 20}, {1, 3, 4}, {2, 3, 5}};
+  const Components components = FindComponents(graph, {1, 0, 0, 0}, ComponentOptions());
+  EXPECT_EQ(components.component_of_patch, (std::vector<std::uint32_t>{0, 1, 2, 2}));
+}
+
+// Two pieces of a wall, `gap` apart.
+PatchGraph DividedWall(double gap, double second_area) {
+  PatchGraph graph;
+  graph.patches = {MakePatch({0, 0, 0}, {0, 0, 1}, 0.2), MakePatch({0.1, 0, 0}, {0, 0, 1}, 0.2),
+                   MakePatch({0.1 + gap, 0, 0}, {0, 0, 1}, second_area)};
+  graph.edges = {{0, 1, 10}};
+  return graph;
+}
+
+TEST(Components, WallBehindAMonitorIsOne) {
+  const Components components =
+      FindComponents(DividedWall(0.6, 0.1), {1, 1, 1}, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 1U);
+  EXPECT_TRUE(components.components[0].is_structural);
+}
+
+TEST(Components, FarAndSmallPiecesOfAPlaneAreNotTheWall) {
+  EXPECT_EQ(FindComponents(DividedWall(1.5, 0.1), {1, 1, 1}, ComponentOptions()).components.size(),
+            2U);
+  EXPECT_EQ(FindComponents(DividedWall(0.6, 0.02), {1, 1, 1}, ComponentOptions()).components.size(),
+            2U);
+  EXPECT_EQ(FindComponents(DividedWall(0.6, 0.1), {1, 1, 2}, ComponentOptions()).components.size(),
+            2U);
+}
+
+TEST(Components, ABoxWithAFaceInThePlaneOfTheWallIsNotTheWall) {
+  PatchGraph graph = DividedWall(0.6, 0.05);
+  graph.patches.push_back(MakePatch({0.75, 0, -0.05}, {1, 0, 0}, 0.05));
+  graph.edges.push_back({2, 3, 10});
+  const Components components = FindComponents(graph, {1, 1, 1, 2}, ComponentOptions());
+  ASSERT_EQ(components.components.size(), 2U);
+  EXPECT_FALSE(components.components[1].is_structural);
 }
 
 TEST(SurfaceGrowth, FollowsAWarpedPlaneUpToItsTolerance) {

@@ -104,20 +104,43 @@ TEST_F(RelocalizationTest, AnotherPlaceThatWasNeverMappedIsNotTakenForThis) {
   }
 }
 
-TEST_F(RelocalizationTest, AFrameWithoutDepthOrWithFewFeaturesIsLostWithoutHarm) {
+TEST_F(RelocalizationTest, AFrameWithoutDepthIsFoundByItsPixels) {
   Track(SyntheticWorld::BlankFrame(kNumMapped));
   auto flat = std::make_shared<Frame>(*LookFrom(10, 200));
   for (Keypoint& keypoint : flat->keypoints) {
     keypoint.depth = 0;
     keypoint.right_x = -1;
   }
-  EXPECT_EQ(Track(flat).state, TrackingState::kLost);
+  const Tracking::Result found = Track(flat);
+  ASSERT_EQ(found.state, TrackingState::kTracking);
+  EXPECT_THAT(found.T_world_camera, Rigid3Near(SyntheticWorld::PathAt(10 / 30.0), 5e-3, 0.03));
+}
+
+TEST_F(RelocalizationTest, AFrameWithFewFeaturesIsLostWithoutHarm) {
+  Track(SyntheticWorld::BlankFrame(kNumMapped));
   auto few = std::make_shared<Frame>(*LookFrom(10, 201));
   few->keypoints.resize(30);
   few->descriptors.resize(30);
   few->grid = FeatureGrid(few->keypoints, World().camera().ideal_bounds());
   EXPECT_EQ(Track(few).state, TrackingState::kLost);
   EXPECT_EQ(Track(LookFrom(10, 202)).state, TrackingState::kTracking);
+}
+
+// Most of what should be seen from there is not.
+TEST_F(RelocalizationTest, APlaceThatLooksRightInOneCornerOnlyIsNotTaken) {
+  auto corner = std::make_shared<Frame>(*LookFrom(0, 200));
+  const std::size_t num_kept = corner->keypoints.size() / 10;
+  corner->keypoints.resize(num_kept);
+  corner->descriptors.resize(num_kept);
+  corner->grid = FeatureGrid(corner->keypoints, World().camera().ideal_bounds());
+  const BagOfWords words = Words()->Transform(corner->descriptors);
+  const auto locate = [&](double min_found_share) {
+    const FrameLocator locator({.min_inliers = 20, .min_found_share = min_found_share},
+                               World().camera(), SyntheticWorld::kBaselineTimesFx, Words(), map_);
+    return locator.Locate(corner, words, KeyframeId{0});
+  };
+  EXPECT_TRUE(locate(0));
+  EXPECT_FALSE(locate(FrameLocator::Options().min_found_share));
 }
 
 TEST_F(RelocalizationTest, LocatorSaysNothingOfAKeyframeThatIsGone) {

@@ -24,6 +24,10 @@ struct OrientedBox {
 // input: an empty box.
 OrientedBox FitOrientedBox(std::span<const Eigen::Vector3d> points);
 
+// Encloses all points; its z axis is `up` (unit length), and around that the box is turned to the
+// least area of its base, the longer side of the base along x. Empty input: an empty box.
+OrientedBox FitUprightBox(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& up);
+
 // Volume of the intersection over volume of the union, by cutting one box with the other's faces.
 // In [0, 1].
 double IntersectionOverUnion(const OrientedBox& a, const OrientedBox& b);

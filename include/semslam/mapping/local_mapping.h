@@ -48,8 +48,11 @@ class LocalMapping {
     int num_landmarks_culled = 0;
     std::vector<KeyframeId> keyframes_culled;
     bool adjusted = false;  // The bundle adjustment ran to its end.
-    double adjust_seconds = 0;
-    double total_seconds = 0;
+    // Spent on each step; 0 for one that was skipped.
+    double triangulate_seconds = 0;  // With words and the culling of landmarks before it.
+    double fuse_seconds = 0;         // With new appearances.
+    double adjust_seconds = 0;       // The bundle adjustment with snapshot and commit.
+    double cull_seconds = 0;         // Of keyframes.
   };
 
   LocalMapping(const Options& options,

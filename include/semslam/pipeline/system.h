@@ -25,6 +25,7 @@
 #include "semslam/mapping/local_mapping.h"
 #include "semslam/pipeline/detector_thread.h"
 #include "semslam/pipeline/point_cloud_mapping.h"
+#include "semslam/pipeline/step.h"
 #include "semslam/place/vocabulary.h"
 #include "semslam/semantics/detector.h"
 #include "semslam/tracking/tracking.h"
@@ -50,6 +51,9 @@ class System {
     LogSink log;                         // May be empty.
     // Finds the camera in a loaded map, and leaves the map as it is.
     bool localization_only = false;
+    // For measurements; both may be empty.
+    StepObserver on_step = {};
+    SharedMap::WaitObserver on_map_wait = {};
   };
 
   // What can be watched while it runs.
@@ -141,8 +145,10 @@ class System {
   void LogNewLoops();
   std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
+  void Tell(Step step, double seconds) const;
 
   const LogSink log_;
+  const StepObserver on_step_;
   const std::string settings_text_;
   const PinholeCamera camera_;
   const std::shared_ptr<const Vocabulary> vocabulary_;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <unordered_map>
+#include <cstdint>
+#include <deque>
+#include <limits>
 #include <vector>
 
 #include "semslam/base/id.h"
@@ -30,11 +32,18 @@ class KeyframeIndex {
   std::vector<Match> FindSimilar(const BowVector& bow) const;
 
  private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
   struct Occurrence {
     KeyframeId keyframe;
     float weight;
+    std::uint32_t next;  // Of the same word, or kNone.
   };
-  std::unordered_map<WordId, std::vector<Occurrence>> occurrences_;
+  // A list a word. A keyframe is added under the map's lock, and shows a thousand words: lists
+  // that are chained through one array grow without an allocation each.
+  std::vector<std::uint32_t> newest_;  // By word: the first of its list, or kNone.
+  std::deque<Occurrence> occurrences_;
+  std::uint32_t free_ = kNone;  // The first of those not in use.
   std::size_t num_keyframes_ = 0;
 };
 

@@ -12,11 +12,13 @@ struct SupervoxelOptions {
   double voxel_size = 0.008;  // Metres.
   // Clouds sparser than the voxels would fall apart: then the voxels grow, up to this factor.
   double max_voxel_growth = 4.0;
-  double seed_spacing = 0.08;   // Metres between the seeds of supervoxels.
-  double spatial_weight = 0.4;  // Of the distance in seed spacings.
-  double normal_weight = 1.0;   // Of one minus the cosine between the normals.
-  int num_passes = 2;           // Each further pass grows again from the centres of the last.
-  std::size_t min_voxels = 8;   // Smaller supervoxels are left to their neighbours.
+  double seed_spacing = 0.08;       // Metres between the seeds of supervoxels.
+  double spatial_weight = 0.4;      // Of the distance in seed spacings.
+  double normal_weight = 1.0;       // Of one minus the cosine between the normals.
+  double offset_weight = 2.4;       // Of the distance from the tangent plane, in seed spacings,
+  double offset_tolerance = 0.004;  // as far as it is more than noise, metres.
+  int num_passes = 2;               // Each further pass grows again from the centres of the last.
+  std::size_t min_voxels = 8;       // Smaller supervoxels are left to their neighbours.
 };
 
 // Steps 2 and 3: plane hypotheses and their support (Pham et al., IROS 2016).
@@ -28,9 +30,10 @@ struct PlaneHypothesisOptions {
   int max_ransac_planes = 1000;    // From random triples of patches.
   int num_ransac_trials = 20000;
   std::uint64_t seed = 1;
-  double merge_angle = 0.0175;    // Cell of near-duplicates, radians.
-  double merge_distance = 0.025;  // The same, metres.
-  std::size_t max_planes = 500;   // The best supported stay.
+  double merge_angle = 0.0175;   // Cell of near-duplicates, radians.
+  double merge_distance = 0.01;  // The same, metres; not above the tolerance, or of a wall and a
+                                 // whiteboard on it one is lost.
+  std::size_t max_planes = 500;  // The best supported stay.
 };
 
 // Step 4: which planes explain the scene (Gorelick et al., "Submodularization for binary pairwise
@@ -52,15 +55,27 @@ struct PlaneAssignmentOptions {
   int max_sweeps = 10;
 };
 
+// Between steps 5 and 6: what rises from a large plane is no part of it.
+struct ReliefOptions {
+  double min_height = 0.004;       // Of a thing over the surface it lies on, metres, and
+  double noise_factor = 3;         // in standard deviations of the surface's own roughness.
+  double reference_radius = 0.25;  // Of the surface a height is measured from, metres.
+  double min_area = 0.002;         // Of a thing that nothing else tells of, square metres.
+};
+
 // Step 6: components (Stein et al., "Object partitioning using local convexity", CVPR 2014).
 struct ComponentOptions {
   double concavity_tolerance = 0.1745;  // Bend that still counts as flat, radians.
   double step_tolerance = 0.004;        // Step that still counts as smooth, metres.
-  std::size_t min_patches = 2;          // Smaller components are unassigned.
+  double min_thing_area = 0.01;       // Smaller things join the one they touch most, square metres.
+  std::size_t min_patches = 2;        // Components of fewer patches are unassigned
+  double min_area = 0.002;            // if they are smaller than this, square metres.
   double min_structural_area = 0.25;  // Planes from here on are floor, wall, table: square metres.
-  double flush_tolerance = 0.008;     // Of a patch against its neighbour's tangent plane, metres.
-  double min_core_area = 0.1;     // A plane from here on, square metres, also takes patches that
-  double warp_tolerance = 0.045;  // continue it and are this near, metres.
+  double min_piece_area = 0.04;  // Pieces of such a plane from here on belong to it, square metres,
+  double max_gap = 1.0;          // over gaps up to this: a wall behind a monitor, metres.
+  double flush_tolerance = 0.008;  // Of a patch against its neighbour's tangent plane, metres.
+  double min_core_area = 0.1;      // A plane from here on, square metres, also takes patches that
+  double warp_tolerance = 0.045;   // continue it and are this near, metres.
 };
 
 }  // namespace semslam

@@ -50,6 +50,7 @@ struct SegmentationTimes {
   double planes = 0;
   double selection = 0;
   double assignment = 0;
+  double relief = 0;
   double components = 0;
   double summary = 0;
   double Total() const;
@@ -77,6 +78,7 @@ class Segmenter {
     PlaneHypothesisOptions planes;
     PlaneSelectionOptions selection;
     PlaneAssignmentOptions assignment;
+    ReliefOptions relief;
     ComponentOptions components;
     int num_threads = 0;  // 0: as many as there are cores.
     // Throws std::invalid_argument with the field's name and value.

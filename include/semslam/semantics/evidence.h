@@ -34,8 +34,12 @@ struct EvidenceOptions {
   int max_hole = 4;                // Grid cells without depth that do not part an object.
   double border_share = 0.08;      // Of the box's shorter side where pixels count less, down to
   double border_weight = 0.5;      // this at the border itself: boxes are not exact.
-  std::uint32_t min_pixels = 12;   // Grid cells; fewer tell nothing about a segment.
-  double min_visible_share = 0.3;  // Of the segment's area, for evidence of a class,
+  // A segment of which this share is inside the box may be a part of the object even if
+  // its depth does not join it to the foreground; weight of a box for such a part.
+  double min_enclosed_share = 0.9;
+  double enclosed_weight = 0.5;
+  std::uint32_t min_pixels = 12;              // Grid cells; fewer tell nothing about a segment.
+  double min_visible_share = 0.3;             // Of the segment's area, for evidence of a class,
   double min_visible_share_background = 0.5;  // and of there being none.
   double background_weight = 0.2;             // Of a view in which no box holds the segment.
 

@@ -27,9 +27,13 @@ struct SemanticObject {
   double confidence = 0;        // Share of the evidence that is for its class, in [0, 1].
   std::uint32_t num_views = 0;  // Keyframes in which the detector saw it.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres; mean of its points.
-  OrientedBox box;                                     // World.
+  // World. Of what stands on a level plane: upright, and down to the plane.
+  OrientedBox box;
   std::size_t num_points = 0;
   std::vector<SegmentId> segments;  // Ascending.
+  // What it stands on: a segment, and the object that is part of. 0: not known.
+  SegmentId supporting_segment = 0;
+  ObjectId supporting_object = 0;
 };
 
 // The map with a class for every point that has one. The vectors belong to the points of the map
@@ -46,14 +50,15 @@ struct SemanticMap {
 
 struct FusionOptions {
   EvidenceOptions evidence;
-  double min_confidence = 0.3;     // Of a segment's class.
-  std::uint32_t min_views = 2;     // Keyframes that saw it as this class (or all that saw it).
-  double min_evidence = 0.6;       // Sum over views, one sure detection being 1: a single weak
-                                   // one does not do.
-  double min_shared_share = 0.5;   // Parts of one object are under one box in this share of views
-  double max_part_gap = 0.04;      // and no farther apart than this, metres.
-  double max_object_shift = 0.15;  // Metres between centroids of one object before and after.
-  void Validate() const;           // Throws InputError.
+  double min_confidence = 0.3;    // Of a segment's class.
+  std::uint32_t min_views = 2;    // Keyframes that saw it as this class (or all that saw it).
+  double min_evidence = 0.6;      // Sum over views, one sure detection being 1: a single weak
+                                  // one does not do.
+  double min_shared_share = 0.5;  // Parts of one object are under one box in this share of views
+  double max_part_gap = 0.04;     // and no farther apart than this, metres, or than
+  double max_relative_part_gap = 0.2;  // this share of the larger one's longest side.
+  double max_object_shift = 0.15;      // Metres between centroids of one object before and after.
+  void Validate() const;               // Throws InputError.
 };
 
 // Gives every segment the class that the detections of all keyframes speak for, joins the segments

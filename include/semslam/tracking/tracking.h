@@ -59,10 +59,13 @@ class Tracking {
     Rigid3 T_reference_camera;
     int num_inliers = 0;  // Landmarks that agree with the pose.
     std::optional<KeyframeId>
-        new_keyframe;            // Inserted into the map with this frame; local mapping is due.
-    bool relocalized = false;    // The place was found again with this frame, after a loss.
-    bool map_was_reset = false;  // Everything before this frame is void.
-    bool was_skipped = false;    // Not newer than the frame before: nothing was done with it.
+        new_keyframe;               // Inserted into the map with this frame; local mapping is due.
+    bool relocalized = false;       // The place was found again with this frame, after a loss.
+    bool map_was_reset = false;     // Everything before this frame is void.
+    bool was_skipped = false;       // Not newer than the frame before: nothing was done with it.
+    double first_pose_seconds = 0;  // Spent on a pose from the last frame or a keyframe,
+    double local_map_seconds = 0;   // on the local map,
+    double keyframe_seconds = 0;    // and on what follows.
   };
 
   Tracking(const Options& options,
@@ -90,6 +93,7 @@ class Tracking {
   };
 
   Result Initialize(std::shared_ptr<const Frame> frame);
+  Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
   void BringLastFrameUpToDate();
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
   std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
@@ -127,8 +131,10 @@ class Tracking {
   std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
   int num_frames_since_found_ = 0;     // After a loss; large before the first.
   int num_frames_since_keyframe_ = 0;
-  int num_frames_tracked_ = 0;  // Since the map was started.
-  int num_frames_lost_ = 0;     // In a row.
+  int num_frames_tracked_ = 0;     // Since the map was started.
+  int num_frames_lost_ = 0;        // In a row.
+  double first_pose_seconds_ = 0;  // Spent on the frame in hand.
+  double local_map_seconds_ = 0;
 
   struct Sightings {
     int num_visible = 0;

@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segmentation/relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+
+#include "segmentation/local_surface.h"
+
+namespace semslam {
+namespace {
+
+// Fewer voxels make no patch of their own.
+constexpr std::size_t kMinPatchVoxels = 8;
+
+class ReliefCut {
+ public:
+  ReliefCut(const VoxelGrid& grid,
+            const Supervoxels& supervoxels,
+            const PatchGraph& graph,
+            const SurfacePieces& pieces,
+            const ReliefOptions& options)
+      : grid_(grid),
+        old_patch_(supervoxels.patch_of_voxel),
+        patch_(supervoxels.patch_of_voxel),
+        num_patches_(supervoxels.num_patches),
+        pieces_(pieces),
+        options_(options),
+        surfaces_(FindLocalSurfaces(graph, pieces, options)),
+        home_height_(grid.size(), 0.0F),
+        is_raised_(grid.size(), false) {}
+
+  Supervoxels Run() {
+    MeasureHomeHeights();
+    FindThresholds();
+    FindRaised();
+    DropCrumbs();
+    TakeFlush();
+    CutRaised();
+    return {std::move(patch_), num_patches_};
+  }
+
+ private:
+  std::uint32_t HomePiece(std::uint32_t voxel) const {
+    const std::uint32_t patch = old_patch_[voxel];
+    return patch == kNoPatch ? kNoPiece : pieces_.piece_of_patch[patch];
+  }
+
+  std::optional<double> HeightOver(std::uint32_t piece, std::uint32_t voxel) const {
+    const std::uint32_t patch = old_patch_[voxel];
+    if (patch == kNoPatch) return std::nullopt;
+    for (const LocalSurface& surface : surfaces_[patch]) {
+      if (surface.piece != piece) continue;
+      return surface.plane.SignedDistance(grid_.centroids[voxel].cast<double>());
+    }
+    return std::nullopt;
+  }
+
+  void MeasureHomeHeights() {
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      const std::uint32_t piece = HomePiece(voxel);
+      if (piece == kNoPiece) continue;
+      home_height_[voxel] = static_cast<float>(HeightOver(piece, voxel).value_or(0));
+    }
+  }
+
+  // Of each piece from its own noise: by the median, which things on it do not touch.
+  void FindThresholds() {
+    constexpr double kSigmaOfMedian = 1.4826;
+    std::vector<std::vector<float>> heights(pieces_.pieces.size());
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      const std::uint32_t piece = HomePiece(voxel);
+      if (piece != kNoPiece) heights[piece].push_back(std::abs(home_height_[voxel]));
+    }
+    for (std::vector<float>& piece_heights : heights) {
+      const auto middle =
+          piece_heights.begin() + static_cast<std::ptrdiff_t>(piece_heights.size() / 2);
+      std::nth_element(piece_heights.begin(), middle, piece_heights.end());
+      thresholds_.push_back(
+          std::max(options_.min_height, options_.noise_factor * kSigmaOfMedian * *middle));
+    }
+  }
+
+  // Not only the voxel itself, but also the mean around it: single voxels are noise.
+  void FindRaised() {
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      const std::uint32_t piece = HomePiece(voxel);
+      if (piece == kNoPiece || home_height_[voxel] <= thresholds_[piece]) continue;
+      float sum = home_height_[voxel];
+      float count = 1;
+      for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
+        if (HomePiece(other) != piece) continue;
+        sum += home_height_[other];
+        count += 1;
+      }
+      is_raised_[voxel] = sum > 0.5 * thresholds_[piece] * count;
+    }
+  }
+
+  // The raised voxels connected with one, of the same patch if asked. Marks them as visited.
+  std::vector<std::uint32_t> CollectRaised(std::uint32_t first,
+                                           bool within_patch,
+                                           std::vector<bool>& is_visited) const {
+    std::vector<std::uint32_t> region = {first};
+    is_visited[first] = true;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+      for (const std::uint32_t other : grid_.NeighboursOf(region[i])) {
+        if (!is_raised_[other] || is_visited[other]) continue;
+        if (within_patch && old_patch_[other] != old_patch_[first]) continue;
+        is_visited[other] = true;
+        region.push_back(other);
+      }
+    }
+    return region;
+  }
+
+  // Small bumps that touch no thing stay with the surface.
+  void DropCrumbs() {
+    const double min_voxels = options_.min_area / (grid_.voxel_size * grid_.voxel_size);
+    std::vector<bool> is_visited(grid_.size(), false);
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      if (!is_raised_[voxel] || is_visited[voxel]) continue;
+      const auto region = CollectRaised(voxel, false, is_visited);
+      if (static_cast<double>(region.size()) >= min_voxels) continue;
+      const bool touches_thing =
+          std::any_of(region.begin(), region.end(), [&](std::uint32_t member) {
+            const auto neighbours = grid_.NeighboursOf(member);
+            return std::any_of(neighbours.begin(), neighbours.end(), [&](std::uint32_t other) {
+              return old_patch_[other] != kNoPatch && HomePiece(other) != HomePiece(member);
+            });
+          });
+      if (touches_thing) continue;
+      for (const std::uint32_t member : region) is_raised_[member] = false;
+    }
+  }
+
+  // From the flat voxels of each piece over what of other patches is as low as they are.
+  void TakeFlush() {
+    std::vector<std::uint32_t> queue;
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      if (HomePiece(voxel) != kNoPiece && !is_raised_[voxel]) queue.push_back(voxel);
+    }
+    std::vector<bool> is_taken(grid_.size(), false);
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::uint32_t voxel = queue[i];
+      const std::uint32_t piece = pieces_.piece_of_patch[patch_[voxel]];
+      for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
+        if (is_taken[other] || (HomePiece(other) != kNoPiece && !is_raised_[other])) continue;
+        const std::optional<double> height = HeightOver(piece, other);
+        if (!height || std::abs(*height) > 0.5 * thresholds_[piece]) continue;
+        is_taken[other] = true;
+        is_raised_[other] = false;
+        patch_[other] = patch_[voxel];
+        queue.push_back(other);
+      }
+    }
+  }
+
+  // Of the patches outside the region's piece the one with most contacts.
+  std::uint32_t NeighbourOf(const std::vector<std::uint32_t>& region) const {
+    std::map<std::uint32_t, std::size_t> contacts;
+    const std::uint32_t piece = HomePiece(region.front());
+    for (const std::uint32_t voxel : region) {
+      for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
+        const std::uint32_t patch = patch_[other];
+        if (patch == kNoPatch || is_raised_[other]) continue;
+        const bool is_cut = patch >= pieces_.piece_of_patch.size();
+        if (is_cut || pieces_.piece_of_patch[patch] != piece) ++contacts[patch];
+      }
+    }
+    const auto most =
+        std::max_element(contacts.begin(), contacts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == contacts.end() ? kNoPatch : most->first;
+  }
+
+  // The raised part of a patch is a patch, or if it is small part of its neighbour.
+  void CutRaised() {
+    std::vector<bool> is_visited(grid_.size(), false);
+    std::vector<std::vector<std::uint32_t>> small;
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      if (!is_raised_[voxel] || is_visited[voxel]) continue;
+      std::vector<std::uint32_t> region = CollectRaised(voxel, true, is_visited);
+      if (region.size() < kMinPatchVoxels) {
+        small.push_back(std::move(region));
+        continue;
+      }
+      for (const std::uint32_t member : region) {
+        patch_[member] = num_patches_;
+        is_raised_[member] = false;
+      }
+      ++num_patches_;
+    }
+    for (const std::vector<std::uint32_t>& region : small) {
+      const std::uint32_t neighbour = NeighbourOf(region);
+      for (const std::uint32_t member : region) {
+        if (neighbour != kNoPatch) patch_[member] = neighbour;
+        is_raised_[member] = false;
+      }
+    }
+  }
+
+  const VoxelGrid& grid_;
+  const std::vector<std::uint32_t>& old_patch_;
+  std::vector<std::uint32_t> patch_;
+  std::uint32_t num_patches_;
+  const SurfacePieces& pieces_;
+  const ReliefOptions& options_;
+  std::vector<std::vector<LocalSurface>> surfaces_;
+  std::vector<float> home_height_;  // Over the piece that the voxel's patch belongs to.
+  std::vector<double> thresholds_;  // By piece.
+  std::vector<bool> is_raised_;
+};
+
+// Renumbers the patches that have voxels left.
+CutPatches Compact(Supervoxels supervoxels, std::vector<std::uint32_t> plane_labels) {
+  plane_labels.resize(supervoxels.num_patches, 0);
+  std::vector<bool> is_used(supervoxels.num_patches, false);
+  for (const std::uint32_t patch : supervoxels.patch_of_voxel) {
+    if (patch != kNoPatch) is_used[patch] = true;
+  }
+  CutPatches result;
+  std::vector<std::uint32_t> new_number(supervoxels.num_patches, kNoPatch);
+  for (std::uint32_t patch = 0; patch < supervoxels.num_patches; ++patch) {
+    if (!is_used[patch]) continue;
+    new_number[patch] = static_cast<std::uint32_t>(result.plane_labels.size());
+    result.plane_labels.push_back(plane_labels[patch]);
+  }
+  for (std::uint32_t& patch : supervoxels.patch_of_voxel) {
+    if (patch != kNoPatch) patch = new_number[patch];
+  }
+  result.supervoxels.patch_of_voxel = std::move(supervoxels.patch_of_voxel);
+  result.supervoxels.num_patches = static_cast<std::uint32_t>(result.plane_labels.size());
+  return result;
+}
+
+}  // namespace
+
+CutPatches CutAtRelief(const VoxelGrid& grid,
+                       const Supervoxels& supervoxels,
+                       const PatchGraph& graph,
+                       const std::vector<Plane>& planes,
+                       const std::vector<std::uint32_t>& plane_labels,
+                       double min_structural_area,
+                       const ReliefOptions& options) {
+  const SurfacePieces pieces =
+      FindStructuralPieces(graph, planes, plane_labels, min_structural_area);
+  ReliefCut cut(grid, supervoxels, graph, pieces, options);
+  return Compact(cut.Run(), plane_labels);
+}
+
+}  // namespace semslam

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "semantics/support.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace semslam {
+namespace {
+
+constexpr double kMaxTilt = 0.5;   // Cosine of the angle between the first camera's up and up.
+constexpr double kLevel = 0.966;   // Cosine of 15 degrees between a level plane's normal and up.
+constexpr double kLayer = 0.02;    // Metres above the lowest point that stand on something.
+constexpr double kMaxSink = 0.01;  // Metres by which noise puts points below what carries them.
+constexpr double kReach = 0.03;    // Metres from a low point to its support, sideways and down.
+constexpr double kTrimmed = 0.02;  // Share of a thing's points that may be outliers below it.
+
+// Either sense of a normal serves: what lies above is what was seen.
+Eigen::Vector3d TowardsUp(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
+  return normal.dot(up) < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+// The height that all but a few points are above.
+double LowestHeight(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& up) {
+  std::vector<double> heights;
+  heights.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) heights.push_back(up.dot(point));
+  const auto low =
+      heights.begin() + static_cast<std::ptrdiff_t>(kTrimmed * static_cast<double>(heights.size()));
+  std::nth_element(heights.begin(), low, heights.end());
+  return *low;
+}
+
+}  // namespace
+
+SupportFinder::SupportFinder(const VoxelIndex& index, const Segmentation& segmentation)
+    : index_(index), segmentation_(segmentation) {
+  const Eigen::Vector3d camera_up = -Eigen::Vector3d::UnitY();
+  double largest_area = 0;
+  for (const Segment& segment : segmentation.segments) {
+    if (!segment.plane || !segment.is_structural || segment.area <= largest_area) continue;
+    const Eigen::Vector3d normal = TowardsUp(segment.plane->normal, camera_up);
+    if (normal.dot(camera_up) < kMaxTilt) continue;
+    largest_area = segment.area;
+    up_ = normal;
+  }
+}
+
+SegmentId SupportFinder::FindSupport(std::span<const Eigen::Vector3d> points,
+                                     std::span<const SegmentId> own) const {
+  if (!up_ || points.empty()) return 0;
+  const double step = segmentation_.voxel_size;
+  const int reach = static_cast<int>(std::ceil(kReach / step));
+  const Eigen::Vector3d side = up_->unitOrthogonal();
+  const Eigen::Vector3d other = up_->cross(side);
+  const double highest = LowestHeight(points, *up_) + kLayer;
+  std::map<SegmentId, std::size_t> num_touched;
+  for (const Eigen::Vector3d& point : points) {
+    if (up_->dot(point) > highest) continue;
+    std::vector<SegmentId> touched;  // By this point; each counts once.
+    for (int x = -reach; x <= reach; ++x) {
+      for (int y = -reach; y <= reach; ++y) {
+        for (int down = 0; down <= reach; ++down) {
+          const auto found = index_.Find(point + step * (x * side + y * other - down * *up_));
+          if (!found) continue;
+          const SegmentId segment = segmentation_.segment_of_point[*found];
+          if (segment != 0 && !std::binary_search(own.begin(), own.end(), segment)) {
+            touched.push_back(segment);
+          }
+        }
+      }
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const SegmentId segment : touched) ++num_touched[segment];
+  }
+  SegmentId support = 0;
+  for (const auto& [segment, count] : num_touched) {
+    if (support == 0 || count > num_touched[support]) support = segment;
+  }
+  return support;
+}
+
+std::optional<Plane> SupportFinder::LevelPlaneOf(SegmentId segment) const {
+  if (segment == 0 || !up_) return std::nullopt;
+  const std::optional<Plane>& plane = segmentation_.segments[segment - 1].plane;
+  if (!plane || std::abs(plane->normal.dot(*up_)) < kLevel) return std::nullopt;
+  return plane->normal.dot(*up_) < 0 ? plane->Flipped() : *plane;
+}
+
+OrientedBox SupportFinder::FitBox(std::span<const Eigen::Vector3d> points,
+                                  SegmentId support) const {
+  if (!up_) return FitOrientedBox(points);
+  const std::optional<Plane> plane = LevelPlaneOf(support);
+  if (!plane) return FitUprightBox(points, *up_);
+  OrientedBox box = FitUprightBox(points, plane->normal);
+  const Eigen::Vector3d center = box.T_world_box.translation;
+  const double height = plane->SignedDistance(center);
+  const double bottom = height - box.half_size.z();
+  if (std::abs(bottom) > kReach + kMaxSink || height <= 0) return box;
+  // What is seen of a thing ends a little above its support, where the segments meet.
+  const double shift = 0.5 * bottom;
+  box.half_size.z() += shift;
+  box.T_world_box.translation = center - shift * plane->normal;
+  return box;
+}
+
+}  // namespace semslam

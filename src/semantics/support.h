@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "semslam/dense/voxel_index.h"
+#include "semslam/geometry/oriented_box.h"
+#include "semslam/geometry/plane.h"
+#include "semslam/segmentation/segmenter.h"
+
+namespace semslam {
+
+// Finds what things stand on. The world is the first camera's frame: up is the normal of the
+// largest plane among those that a camera held level within 60 degrees sees as level.
+class SupportFinder {
+ public:
+  // The arguments must outlive this object.
+  SupportFinder(const VoxelIndex& index, const Segmentation& segmentation);
+
+  // Nothing if no level plane was found.
+  const std::optional<Eigen::Vector3d>& up() const { return up_; }
+
+  // The segment below or beside the lowest points of a thing that most of them touch; 0 if there
+  // is none. `own`: the thing's segments, ascending.
+  SegmentId FindSupport(std::span<const Eigen::Vector3d> points,
+                        std::span<const SegmentId> own) const;
+
+  // Upright if up is known, and down to the support if that is a level plane; else along the
+  // principal directions.
+  OrientedBox FitBox(std::span<const Eigen::Vector3d> points, SegmentId support) const;
+
+ private:
+  std::optional<Plane> LevelPlaneOf(SegmentId segment) const;
+
+  const VoxelIndex& index_;
+  const Segmentation& segmentation_;
+  std::optional<Eigen::Vector3d> up_;
+};
+
+}  // namespace semslam

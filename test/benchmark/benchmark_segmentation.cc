@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The paper's table 1 on this machine: time and memory of this project's segmentation, and of PCL's
+// LCCP and region growing, on clouds of several sizes. The clouds are made: the true surface of a
+// rendered room, roughened like a map, cut to size about its middle, and repeated where it is too
+// small. Each measurement runs in a process of its own, so that its peak memory is its own.
+//   benchmark_segmentation [millions of points ...]
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "semslam/base/random.h"
+#include "semslam/base/stopwatch.h"
+#include "semslam/render/clip.h"
+#include "semslam/segmentation/segmenter.h"
+
+#include "pcl_methods.h"
+#include "render/true_surface.h"
+
+namespace {
+
+using semslam::PointCloudView;
+
+struct Cloud {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;
+};
+
+struct Measurement {
+  double milliseconds = 0;
+  double cpu_milliseconds = 0;  // Of all threads: tells more on a busy machine.
+  double peak_bytes = 0;        // Above what the process had before, the cloud among it.
+  double num_segments = 0;
+};
+
+Cloud MakeRoom() {
+  constexpr float kNoise = 0.0015F;  // Metres.
+  semslam::RenderedClip::Options options;
+  options.scene = "room";
+  options.num_frames = 60;
+  options.fps = 4;
+  const semslam::TrueSurface surface = semslam::SampleTrueSurface(semslam::RenderedClip(options));
+  semslam::Random random(1);
+  Cloud cloud;
+  cloud.normals = surface.normals;
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    cloud.points.push_back(surface.positions[i] +
+                           kNoise * static_cast<float>(random.Gaussian()) * surface.normals[i]);
+  }
+  return cloud;
+}
+
+// The room, made in a process that ends with it: threads of a pool do not live on in children, and
+// the parent, which the measurements are children of, must have none.
+Cloud MakeRoomAside() {
+  std::FILE* const file = std::tmpfile();
+  if (file == nullptr) return {};
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const Cloud room = MakeRoom();
+    std::fwrite(room.points.data(), sizeof(Eigen::Vector3f), room.points.size(), file);
+    std::fwrite(room.normals.data(), sizeof(Eigen::Vector3f), room.normals.size(), file);
+    std::fflush(file);
+    ::_exit(EXIT_SUCCESS);
+  }
+  ::waitpid(child, nullptr, 0);
+  std::fseek(file, 0, SEEK_END);
+  const auto num_points =
+      static_cast<std::size_t>(std::ftell(file)) / (2 * sizeof(Eigen::Vector3f));
+  std::rewind(file);
+  Cloud room = {std::vector<Eigen::Vector3f>(num_points), std::vector<Eigen::Vector3f>(num_points)};
+  const std::size_t num_read =
+      std::fread(room.points.data(), sizeof(Eigen::Vector3f), num_points, file) +
+      std::fread(room.normals.data(), sizeof(Eigen::Vector3f), num_points, file);
+  std::fclose(file);
+  return num_read == 2 * num_points ? room : Cloud();
+}
+
+// Copies of the room side by side until there are enough points, then those nearest to the middle.
+Cloud CutToSize(const Cloud& room, std::size_t num_points) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& point : room.points) box.extend(point);
+  const float width = box.sizes().x() + 0.5F;
+  Cloud whole;
+  for (int copy = 0; whole.points.size() < num_points; ++copy) {
+    const Eigen::Vector3f shift(width * static_cast<float>(copy), 0, 0);
+    for (const Eigen::Vector3f& point : room.points) whole.points.push_back(point + shift);
+    whole.normals.insert(whole.normals.end(), room.normals.begin(), room.normals.end());
+  }
+  const Eigen::Vector3f middle = box.center();
+  std::vector<std::size_t> order(whole.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(num_points) - 1,
+                   order.end(), [&](std::size_t a, std::size_t b) {
+                     return (whole.points[a] - middle).squaredNorm() <
+                            (whole.points[b] - middle).squaredNorm();
+                   });
+  order.resize(num_points);
+  std::sort(order.begin(), order.end());
+  Cloud cloud;
+  for (const std::size_t i : order) {
+    cloud.points.push_back(whole.points[i]);
+    cloud.normals.push_back(whole.normals[i]);
+  }
+  return cloud;
+}
+
+double ResidentBytes() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0;
+  double resident = 0;
+  file >> size >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+double CpuMilliseconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto milliseconds = [](const timeval& time) {
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+  };
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
+double PeakBytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+// Runs `segment`, which gives the number of segments, in a process of its own.
+template <typename Function>
+Measurement Measure(const Function& segment) {
+  ::malloc_trim(0);  // What is free but kept would hide what the method takes.
+  std::array<int, 2> pipe{};
+  if (::pipe(pipe.data()) != 0) return {};
+  const pid_t child = ::fork();
+  if (child == 0) {
+    Measurement measurement;
+    const double before = ResidentBytes();
+    const semslam::Stopwatch watch;
+    measurement.num_segments = static_cast<double>(segment());
+    measurement.cpu_milliseconds = CpuMilliseconds();
+    measurement.milliseconds = watch.Milliseconds();
+    measurement.peak_bytes = PeakBytes() - before;
+    const bool is_written =
+        ::write(pipe[1], &measurement, sizeof(measurement)) == ssize_t{sizeof(measurement)};
+    ::_exit(is_written ? EXIT_SUCCESS : EXIT_FAILURE);
+  }
+  Measurement measurement;
+  ::close(pipe[1]);
+  if (::read(pipe[0], &measurement, sizeof(measurement)) != ssize_t{sizeof(measurement)}) {
+    measurement = {};  // It crashed: zeros in the table.
+  }
+  ::close(pipe[0]);
+  ::waitpid(child, nullptr, 0);
+  return measurement;
+}
+
+void PrintRow(const char* method, std::size_t num_points, const Measurement& m, double ours) {
+  const auto points = static_cast<double>(num_points);
+  std::printf("%9zu  %-15s %9.0f %9.0f %9.3f %12.0f %9.0f", num_points, method, m.milliseconds,
+              m.cpu_milliseconds, 1e3 * m.milliseconds / points, m.peak_bytes / points,
+              m.num_segments);
+  std::printf(ours > 0 ? " %9.1f x\n" : "\n", m.milliseconds / ours);
+  std::fflush(stdout);
+}
+
+void Compare(const Cloud& cloud) {
+  const PointCloudView view = {cloud.points, cloud.normals};
+  const std::size_t num_points = cloud.points.size();
+  const Measurement ours = Measure([&] {
+    return semslam::Segmenter(semslam::Segmenter::Options()).Segment(view).segments.size();
+  });
+  PrintRow("graph (ours)", num_points, ours, 0);
+  PrintRow("lccp", num_points, Measure([&] { return SegmentWithLccp(view).num_segments; }),
+           ours.milliseconds);
+  PrintRow("region growing", num_points,
+           Measure([&] { return SegmentWithRegionGrowing(view).num_segments; }), ours.milliseconds);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<double> millions(static_cast<std::size_t>(argc) - 1);
+  for (int i = 1; i < argc; ++i) millions[static_cast<std::size_t>(i) - 1] = std::atof(argv[i]);
+  if (millions.empty()) millions = {0.1, 0.3, 0.952563, 3};
+  const Cloud room = MakeRoomAside();
+  if (room.points.empty()) {
+    std::cerr << "benchmark_segmentation: the room could not be made\n";
+    return EXIT_FAILURE;
+  }
+  std::printf("a room of %zu points\n%9s  %-15s %9s %9s %9s %12s %9s %11s\n", room.points.size(),
+              "points", "method", "ms", "cpu ms", "us/point", "bytes/point", "segments", "to ours");
+  for (const double size : millions) {
+    if (!(size > 0)) {
+      std::cerr << "benchmark_segmentation: expected millions of points, each > 0\n";
+      return EXIT_FAILURE;
+    }
+    Compare(CutToSize(room, static_cast<std::size_t>(1e6 * size)));
+  }
+  return EXIT_SUCCESS;
+}
