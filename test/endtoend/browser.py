@@ -47,7 +47,7 @@ class Browser:
 
     def _read_port(self):
         for line in self.driver.stdout:
-            match = re.search(r"on port (\d+)", line)
+            match = re.search(r"successfully on port (\d+)", line)
             if match:
                 return int(match.group(1))
         raise RuntimeError("chromedriver did not start")
@@ -77,6 +77,7 @@ class Browser:
     def click(self, selector):
         """As a user does: scrolls to the element and clicks its middle."""
         found = self.call("POST", "/element", {"using": "css selector", "value": selector})
+        self.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", found)
         self.call("POST", f"/element/{found[ELEMENT]}/click", {})
 
     def wait_for(self, script, seconds=60):

@@ -199,6 +199,14 @@ TEST(ReportTest, TheFileStaysBelowItsLimit) {
   EXPECT_GT(SceneOf(page).at("points"), 1000);
 }
 
+TEST(ReportTest, AMillionPointsAreThinnedAndFitTheFile) {
+  const Floor floor(1000);
+  const std::string page = Write(FullReport(floor));
+  EXPECT_LT(page.size(), 15'000'000U);
+  EXPECT_LE(SceneOf(page).at("points"), 300'000);
+  EXPECT_GT(SceneOf(page).at("points"), 150'000);
+}
+
 TEST(ReportTest, PointsWithoutAPlaceAreLeftOut) {
   Floor floor(10);
   floor.positions[3].x() = std::numeric_limits<float>::quiet_NaN();

@@ -185,8 +185,7 @@ class View {
 
   // Something moved: draws soon, as many points as it can quickly, and all of them at rest.
   touch() {
-    clearTimeout(this.rest);
-    this.flight = null;
+    this.endFlight();
     this.request();
     this.settle();
   }
@@ -219,7 +218,13 @@ class View {
   fly(state) {
     const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.flight = { from: this.camera.state, to: state, seconds: isStill ? 0 : 0.8 };
+    this.canvas.dataset.flies = "yes";
     this.request();
+  }
+
+  endFlight() {
+    this.flight = null;
+    this.canvas.dataset.flies = "no";
   }
 
   advance(now) {
@@ -229,7 +234,7 @@ class View {
     const eased = time * time * (3 - 2 * time);
     this.camera.state = time < 1 ? OrbitCamera.between(flight.from, flight.to, eased) : flight.to;
     if (time < 1) return;
-    this.flight = null;
+    this.endFlight();
     this.settle();
   }
 

@@ -49,8 +49,8 @@ std::string ObjectRow(const LabelledMapView& map, std::size_t place, const std::
   row += Format(
       "<td class=\"num\"><span class=\"bar\"><i style=\"width:%.0f%%\"></i></span>%.0f %%</td>",
       percent, percent);
-  row += "<td class=\"num no-phone\">" + GroupDigits(object.num_views) +
-         "</td><td class=\"num wide\">" + GroupDigits(object.num_points) + "</td>";
+  row += "<td class=\"num\">" + GroupDigits(object.num_views) + "</td><td class=\"num wide\">" +
+         GroupDigits(object.num_points) + "</td>";
   const Eigen::Vector3d size = 200.0 * object.box.half_size;
   row +=
       Format("<td class=\"num\">%.0f \u00D7 %.0f \u00D7 %.0f</td>", size.x(), size.y(), size.z());
@@ -185,9 +185,10 @@ std::string ObjectTable(const LabelledMapView& map,
   if (order.size() > max_rows) order.resize(max_rows);
   std::string html =
       "<div class=\"scroll\"><table class=\"objects\"><thead><tr><td></td><th>object</th>"
-      "<th class=\"num\">confidence</th><th class=\"num no-phone\">views</th><th class=\"num "
+      "<th class=\"num\">confidence</th><th class=\"num\">views</th><th class=\"num "
       "wide\">points"
-      "</th><th class=\"num\">size (cm)</th><th class=\"num wide\">position (m)</th></tr></thead>"
+      "</th><th class=\"num no-phone\">size (cm)</th><th class=\"num wide\">position "
+      "(m)</th></tr></thead>"
       "<tbody>\n";
   for (const std::size_t place : order) html += ObjectRow(map, place, pictures[place]);
   html += "</tbody></table></div>\n";
