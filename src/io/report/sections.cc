@@ -52,8 +52,8 @@ std::string ObjectRow(const LabelledMapView& map, std::size_t place, const std::
   row += "<td class=\"num\">" + GroupDigits(object.num_views) + "</td><td class=\"num wide\">" +
          GroupDigits(object.num_points) + "</td>";
   const Eigen::Vector3d size = 200.0 * object.box.half_size;
-  row +=
-      Format("<td class=\"num\">%.0f \u00D7 %.0f \u00D7 %.0f</td>", size.x(), size.y(), size.z());
+  row += Format("<td class=\"num no-phone\">%.0f \u00D7 %.0f \u00D7 %.0f</td>", size.x(), size.y(),
+                size.z());
   row += Format("<td class=\"num wide\">%.2f, %.2f, %.2f</td></tr>\n", object.centroid.x(),
                 object.centroid.y(), object.centroid.z());
   return row;
