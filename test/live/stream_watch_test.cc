@@ -44,6 +44,16 @@ TEST(StreamWatch, OneStreamAloneMayStartLater) {
   EXPECT_THAT(VerdictAt(3.1, -1, 10), HasSubstr("no colour images"));
 }
 
+// The last pair may be a frame older than the last image of the stream that stopped.
+TEST(StreamWatch, OneStreamThatStopsIsNotTakenForImagesThatDoNotFit) {
+  StreamWatch watch(1.0, 3.0);
+  watch.Start(0);
+  watch.OnPair(5);
+  watch.OnImage(StreamKind::kColor, 5.033);
+  watch.OnImage(StreamKind::kDepth, 6.02);
+  EXPECT_FALSE(watch.Check(6.02));
+}
+
 TEST(StreamWatch, NoticesImagesThatNeverBelongTogether) {
   StreamWatch watch(1.0, 3.0);
   watch.Start(0);
