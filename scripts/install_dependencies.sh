@@ -4,9 +4,10 @@
 #
 # Installs the Debian 12 / Ubuntu packages that semslam needs, as root or with sudo. Does nothing,
 # quickly and without a network, if all are there.
-#   scripts/install_dependencies.sh [--with-lint] [--list] [--help]
-#     --with-lint  clang-format and clang-tidy as well
-#     --list       print the packages and install nothing
+#   scripts/install_dependencies.sh [--with-lint] [--with-browser] [--list] [--help]
+#     --with-lint     clang-format and clang-tidy as well
+#     --with-browser  Chromium as well, in which the tests look at the report
+#     --list          print the packages and install nothing
 set -euo pipefail
 
 packages=(
@@ -19,13 +20,15 @@ packages=(
   libbenchmark-dev libgmock-dev libgtest-dev
 )
 lint_packages=(clang-format-14 clang-tidy-14)
+browser_packages=(chromium chromium-driver)
 
 list_only=false
 for argument in "$@"; do
   case "$argument" in
     --with-lint) packages+=("${lint_packages[@]}") ;;
+    --with-browser) packages+=("${browser_packages[@]}") ;;
     --list) list_only=true ;;
-    --help | -h) sed -n '5,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --help | -h) sed -n '5,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "$0: unknown option $argument (--help shows the usage)" >&2; exit 2 ;;
   esac
 done

@@ -5,7 +5,7 @@ import unittest
 
 import formats
 import harness
-from harness import CLIP, FILES, NUM_FRAMES, EndToEndTest, run
+from harness import CLIP, MAP_FILES, NUM_FRAMES, EndToEndTest, run
 
 OPTIONS = ["--sequential", "--detections", CLIP / "detections"]
 
@@ -29,7 +29,7 @@ class MapFileTest(EndToEndTest):
         self.assert_success(self.summary)
         result = run("map_info", self.map_file, "--output", self.output)
         self.assert_success(result)
-        for name in FILES:
+        for name in MAP_FILES:
             self.assertTrue((self.saved / name).read_bytes() == (self.output / name).read_bytes(),
                             f"{name} differs")
 

@@ -9,7 +9,7 @@ import unittest
 
 import formats
 import harness
-from harness import CLIP, FILES, NUM_FRAMES, EndToEndTest, complaints, run
+from harness import CLIP, FILES, MAP_FILES, NUM_FRAMES, EndToEndTest, complaints, run
 
 NO_DETECTOR_FILES = ["CameraTrajectory.txt", "KeyFrameTrajectory.txt", "global_color.pcd",
                      "segmentation.pcd"]
@@ -154,9 +154,22 @@ class ResultsTest(EndToEndTest):
 
     def test_a_second_sequential_run_writes_the_same_bytes(self):
         self.assert_success(self.map(*SEQUENTIAL))
-        for name in FILES:
+        for name in MAP_FILES:
             self.assertTrue((self.first / name).read_bytes() == (self.output / name).read_bytes(),
                             f"{name} differs")
+
+    def test_the_report_of_a_second_run_differs_in_measured_times_only(self):
+        self.assert_success(self.map(*SEQUENTIAL))
+        pages = [(folder / "report.html").read_text() for folder in (self.first, self.output)]
+        bare = [harness.without_measured(page) for page in pages]
+        self.assertTrue(bare[0] == bare[1], "the reports differ")
+        self.assertLess(len(bare[0]), len(pages[0]))
+
+    def test_the_report_says_how_good_the_trajectory_is(self):
+        page = (self.first / "report.html").read_text()
+        self.assertRegex(page, r"ATE, root mean square</th><td>\d+\.\d mm")
+        self.assertIn(f"{NUM_FRAMES} / {NUM_FRAMES}", page)
+        self.assertLess(len(page), 15_000_000)
 
     def test_geometry_is_the_same_without_semantics(self):
         result = self.map("--sequential", "--no-semantics", associations="-")

@@ -37,7 +37,8 @@ class OrbitCamera {
     });
     this.radius = Math.max(0.5 * Math.hypot(...sizes), 0.1);
     const narrow = this.tangent * Math.min(1, this.aspect);
-    const distance = (0.9 * this.radius) / Math.sin(Math.atan(narrow));
+    const margin = this.aspect < 1 ? 1.05 : 0.9;
+    const distance = (margin * this.radius) / Math.sin(Math.atan(narrow));
     this.home = { target, yaw: 0.35, pitch: 0.6, distance };
     this.state = this.home;
   }

@@ -19,6 +19,10 @@ function boxEdges(object, color) {
   return edges;
 }
 
+// Of an object's box above its centre.
+const heightOf = (object, up) => object.half.reduce((sum, half, i) =>
+  sum + half * Math.abs(dot([0, 3, 6].map((row) => object.axes[row + i]), up)), 0);
+
 // What the camera saw, as a pyramid.
 function frustumEdges(keyframe, scene, color) {
   const depth = 0.08;
@@ -172,21 +176,20 @@ class View {
     const m = this.camera.matrix();
     const isHidden = this.renderer.hidden.has("objects");
     this.scene.objects.forEach((object, i) => {
-      const top = add(object.center, scale(this.scene.up, 0.5 * Math.min(...object.half)));
+      const top = add(object.center, scale(this.scene.up, heightOf(object, this.scene.up)));
       const clip = (row) => m[row] * top[0] + m[4 + row] * top[1] + m[8 + row] * top[2] + m[12 + row];
       const w = clip(3);
       const style = this.names[i].style;
       this.names[i].hidden = isHidden || w <= 0;
       const x = (0.5 + 0.5 * clip(0) / w) * this.canvas.clientWidth;
       const y = (0.5 - 0.5 * clip(1) / w) * this.canvas.clientHeight;
-      style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -120%)`;
+      style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -110%)`;
     });
   }
 
   // Something moved: draws soon, as many points as it can quickly, and all of them at rest.
   touch() {
-    clearTimeout(this.rest);
-    this.flight = null;
+    this.endFlight();
     this.request();
     this.settle();
   }
@@ -219,7 +222,13 @@ class View {
   fly(state) {
     const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.flight = { from: this.camera.state, to: state, seconds: isStill ? 0 : 0.8 };
+    this.canvas.dataset.flies = "yes";
     this.request();
+  }
+
+  endFlight() {
+    this.flight = null;
+    this.canvas.dataset.flies = "no";
   }
 
   advance(now) {
@@ -229,7 +238,7 @@ class View {
     const eased = time * time * (3 - 2 * time);
     this.camera.state = time < 1 ? OrbitCamera.between(flight.from, flight.to, eased) : flight.to;
     if (time < 1) return;
-    this.flight = null;
+    this.endFlight();
     this.settle();
   }
 

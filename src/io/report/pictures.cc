@@ -64,6 +64,13 @@ std::optional<ImageBox> ProjectBox(const ObjectRecord& object,
   return ImageBox{box[0], box[1], box[2], box[3]};
 }
 
+// Of the smaller box, what lies in the other: often only part of an object is in the map.
+double ShareOfSmaller(const ImageBox& a, const ImageBox& b) {
+  const double ratio = IntersectionOverUnion(a, b);
+  const double common = ratio / (1.0 + ratio) * (a.Area() + b.Area());
+  return common / std::max(1e-6F, std::min(a.Area(), b.Area()));
+}
+
 struct Candidate {
   double rank = 0;
   ObjectView view;
@@ -84,9 +91,9 @@ std::optional<Candidate> Assess(const ObjectRecord& object,
   Candidate best{share * size, {place, visible}};
   for (const Detection& detection : keyframe.detections) {
     if (static_cast<std::uint32_t>(detection.class_id) + 1 != object.label) continue;
-    const double overlap = IntersectionOverUnion(detection.box, visible);
+    const double overlap = ShareOfSmaller(detection.box, visible);
     const double rank = 1.0 + overlap * detection.score * (0.3 + size);
-    if (overlap > 0.3 && rank > best.rank) best = {rank, {place, detection.box}};
+    if (overlap > 0.6 && rank > best.rank) best = {rank, {place, detection.box}};
   }
   return best;
 }

@@ -13,7 +13,7 @@ namespace {
 
 // Units of the drawing; about pixels where three plots are side by side.
 constexpr double kWidth = 440;
-constexpr double kLeft = 54;
+constexpr double kLeft = 60;
 constexpr double kRight = 14;
 constexpr double kTop = 12;
 constexpr double kBottom = 42;
@@ -127,7 +127,7 @@ std::string DrawAxes(const Plot& plot, const Frame& frame) {
   svg += Format("<text class=\"label\" x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>",
                 0.5 * (kLeft + right), frame.height - 6, EscapeHtml(plot.x_label).c_str());
   svg += Format(
-      "<text class=\"label\" transform=\"translate(13 %.1f) rotate(-90)\" "
+      "<text class=\"label\" transform=\"translate(11 %.1f) rotate(-90)\" "
       "text-anchor=\"middle\">%s</text>",
       0.5 * (kTop + bottom), EscapeHtml(plot.y_label).c_str());
   return svg;
@@ -205,7 +205,9 @@ std::string DrawLegend(const Plot& plot) {
 
 std::string DrawPlot(const Plot& plot) {
   const std::string title = EscapeHtml(plot.title);
-  std::string html = "<figure class=\"plot\"><h3>" + title + "</h3>";
+  std::string html =
+      plot.has_equal_axes ? "<figure class=\"plot tall\">" : "<figure class=\"plot\">";
+  html += "<h3>" + title + "</h3>";
   const Frame frame = FitFrame(plot);
   if (frame.x.is_empty()) return html + "<p class=\"muted\">Nothing was recorded.</p></figure>\n";
   html +=

@@ -61,6 +61,17 @@ void main() {
   color = rgb;
 }`;
 
+// Round.
+const POINT_COLOR_SHADER = `#version 300 es
+precision mediump float;
+flat in vec3 color;
+out vec4 pixel;
+void main() {
+  vec2 offset = gl_PointCoord - 0.5;
+  if (dot(offset, offset) > 0.25) discard;
+  pixel = vec4(color, 1.0);
+}`;
+
 const COLOR_SHADER = `#version 300 es
 precision mediump float;
 flat in vec3 color;
@@ -111,7 +122,7 @@ class Renderer {
     this.selected = 0; // Place of an object from 1, 0 for none.
     this.background = [0.9, 0.9, 0.9];
     this.hidden = new Set(); // Names of sets of lines.
-    this.points = buildProgram(gl, POINT_SHADER, COLOR_SHADER);
+    this.points = buildProgram(gl, POINT_SHADER, POINT_COLOR_SHADER);
     this.lines = buildProgram(gl, LINE_SHADER, COLOR_SHADER);
     this.pointArray = this.uploadPoints(bytes);
     this.uploadClassColors();
@@ -187,12 +198,11 @@ class Renderer {
     gl.uniform3fv(uniforms.eye, camera.eye());
     gl.uniform1f(uniforms.step_size, scene.step);
     const pixelsPerTangent = gl.drawingBufferHeight / (2 * camera.tangent);
-    const width = (1.35 * scene.spacing) / Math.sqrt(share);
+    const width = (1.6 * scene.spacing) / Math.sqrt(share);
     gl.uniform1f(uniforms.point_size, width * pixelsPerTangent);
     gl.uniform1f(uniforms.max_size, gl.drawingBufferHeight / 12);
     gl.uniform1i(uniforms.mode, mode);
     gl.uniform1ui(uniforms.selected, this.selected);
-    gl.uniform1f(uniforms.opacity, 1);
     gl.bindVertexArray(this.pointArray);
     gl.drawArrays(gl.POINTS, 0, Math.ceil(share * scene.points));
   }

@@ -52,8 +52,8 @@ std::string ObjectRow(const LabelledMapView& map, std::size_t place, const std::
   row += "<td class=\"num\">" + GroupDigits(object.num_views) + "</td><td class=\"num wide\">" +
          GroupDigits(object.num_points) + "</td>";
   const Eigen::Vector3d size = 200.0 * object.box.half_size;
-  row +=
-      Format("<td class=\"num\">%.0f \u00D7 %.0f \u00D7 %.0f</td>", size.x(), size.y(), size.z());
+  row += Format("<td class=\"num no-phone\">%.0f \u00D7 %.0f \u00D7 %.0f</td>", size.x(), size.y(),
+                size.z());
   row += Format("<td class=\"num wide\">%.2f, %.2f, %.2f</td></tr>\n", object.centroid.x(),
                 object.centroid.y(), object.centroid.z());
   return row;
@@ -185,8 +185,10 @@ std::string ObjectTable(const LabelledMapView& map,
   if (order.size() > max_rows) order.resize(max_rows);
   std::string html =
       "<div class=\"scroll\"><table class=\"objects\"><thead><tr><td></td><th>object</th>"
-      "<th class=\"num\">confidence</th><th class=\"num\">views</th><th class=\"num wide\">points"
-      "</th><th class=\"num\">size (cm)</th><th class=\"num wide\">position (m)</th></tr></thead>"
+      "<th class=\"num\">confidence</th><th class=\"num\">views</th><th class=\"num "
+      "wide\">points"
+      "</th><th class=\"num no-phone\">size (cm)</th><th class=\"num wide\">position "
+      "(m)</th></tr></thead>"
       "<tbody>\n";
   for (const std::size_t place : order) html += ObjectRow(map, place, pictures[place]);
   html += "</tbody></table></div>\n";
@@ -267,7 +269,7 @@ std::string SpeedPlots(const ReportSpeed& speed) {
                           .starts_at_zero = true,
                           .series = {line("mapping", "estimate", &Queues::mapping),
                                      line("loop closing", "error", &Queues::loop),
-                                     line("dense map", "truth", &Queues::dense),
+                                     line("dense map", "third", &Queues::dense),
                                      line("detector", "fourth", &Queues::detector)}});
 }
 
