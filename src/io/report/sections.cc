@@ -206,12 +206,14 @@ std::string KeyframeStrip(const ReportData& data, const std::vector<StripPicture
   for (const StripPicture& picture : pictures) {
     const ReportKeyframe& keyframe = data.keyframes[picture.keyframe];
     const std::string time = Format("%.2f s", clock(keyframe.time));
-    html += "<button class=\"keyframe\" type=\"button\" data-keyframe=\"" +
-            std::to_string(picture.keyframe) + "\" aria-label=\"Look from the keyframe at " + time +
-            "\"><span class=\"picture\"><img alt=\"\" src=\"" + JpegUri(picture.jpeg) + "\"/>" +
-            Format("<svg viewBox=\"0 0 %d %d\" aria-hidden=\"true\">", data.camera.width,
-                   data.camera.height) +
-            DrawBoxes(data, keyframe) + "</svg></span><span>" + time + "</span></button>\n";
+    html += "<button class=\"keyframe\" type=\"button\" data-keyframe=\"";
+    html += std::to_string(picture.keyframe);
+    html += "\" aria-label=\"Look from the keyframe at " + time;
+    html += "\"><span class=\"picture\"><img alt=\"\" src=\"" + JpegUri(picture.jpeg) + "\"/>";
+    html += Format("<svg viewBox=\"0 0 %d %d\" aria-hidden=\"true\">", data.camera.width,
+                   data.camera.height);
+    html += DrawBoxes(data, keyframe);
+    html += "</svg></span><span>" + time + "</span></button>\n";
   }
   html += "</div>\n";
   if (pictures.size() < data.keyframes.size()) {
