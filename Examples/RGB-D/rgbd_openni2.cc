@@ -3,6 +3,7 @@
 
 // Maps live with an Asus Xtion or another camera that OpenNI2 knows, or from a recording of one:
 //   rgbd_openni2 Vocabulary/orb.voc config/Xtion.yaml --output RESULT
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -85,7 +86,7 @@ semslam::OpenNi2Source::Options SourceOptions(const Arguments& arguments,
   options.device = arguments.device;
   options.width = settings.camera.width;
   options.height = settings.camera.height;
-  options.fps = static_cast<int>(settings.fps + 0.5);
+  options.fps = static_cast<int>(std::lround(settings.fps));
   options.is_rgb = settings.is_rgb;
   options.auto_exposure = settings.auto_exposure;
   options.accept_unregistered = arguments.unregistered;

@@ -20,7 +20,7 @@ using testing::TemporaryFolder;
 
 RgbdImage MakeImage(int number, int width = 64, int height = 48) {
   RgbdImage image;
-  image.time = 1'795'000'000 * kNsPerSecond + number * 33'333'000;
+  image.time = 1'795'000'000 * kNsPerSecond + number * TimeNs{33'333'000};
   cv::RNG random(static_cast<std::uint64_t>(number) + 1);
   image.color.create(height, width, CV_8UC3);
   random.fill(image.color, cv::RNG::UNIFORM, 0, 256);
