@@ -54,6 +54,7 @@ std::string JpegOf(int width, int height) {
 }
 
 // A run with all there can be.
+ReportData FullReport(Floor&&) = delete;  // The report looks at the floor's points.
 ReportData FullReport(const Floor& floor) {
   ReportData data;
   data.title = "desk";
@@ -140,7 +141,8 @@ std::string MisplacedTag(std::string page) {
 }
 
 TEST(ReportTest, EveryTagIsClosedAndEveryAttributeQuoted) {
-  EXPECT_EQ(MisplacedTag(Write(FullReport(Floor(20)))), "");
+  const Floor floor(20);
+  EXPECT_EQ(MisplacedTag(Write(FullReport(floor))), "");
 }
 
 TEST(ReportTest, AnEmptyRunGivesAPageThatSaysSo) {
@@ -153,7 +155,8 @@ TEST(ReportTest, AnEmptyRunGivesAPageThatSaysSo) {
 
 TEST(ReportTest, TextsCannotBecomeMarkup) {
   const std::string evil = "</script><img src=x onerror=\"alert('1')\">&\x01\xFF{{points}}";
-  ReportData data = FullReport(Floor(5));
+  const Floor floor(5);
+  ReportData data = FullReport(floor);
   data.title = data.program = data.settings_text = evil;
   data.highlights = data.facts = data.options = data.speed.facts = {{evil, evil}};
   data.speed.highlight = ReportFact{evil, evil};
@@ -170,7 +173,8 @@ TEST(ReportTest, TextsCannotBecomeMarkup) {
 }
 
 TEST(ReportTest, NothingIsLoadedFromAnywhere) {
-  const std::string page = Write(FullReport(Floor(20)));
+  const Floor floor(20);
+  const std::string page = Write(FullReport(floor));
   EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!data:|#)")));
   EXPECT_THAT(page, Not(HasSubstr("http:")));
   EXPECT_THAT(page, Not(HasSubstr("https:")));
@@ -221,12 +225,14 @@ TEST(ReportTest, PointsThatAreAllInOnePlaceAreThinnedToo) {
 }
 
 TEST(ReportTest, UpIsTheNormalOfTheFloor) {
-  const auto up = SceneOf(Write(FullReport(Floor(20)))).at("up");
+  const Floor floor(20);
+  const auto up = SceneOf(Write(FullReport(floor))).at("up");
   EXPECT_NEAR(up.at(1), -1.0, 1e-3);
 }
 
 TEST(ReportTest, ObjectsAndKeyframesHavePictures) {
-  const std::string page = Write(FullReport(Floor(20)));
+  const Floor floor(20);
+  const std::string page = Write(FullReport(floor));
   EXPECT_EQ(CountOf(page, "src=\"data:image/jpeg;base64,"), 2);
   EXPECT_THAT(page, HasSubstr("keyboard 0.90"));
   EXPECT_THAT(page, HasSubstr("75 %"));
@@ -234,7 +240,8 @@ TEST(ReportTest, ObjectsAndKeyframesHavePictures) {
 }
 
 TEST(ReportTest, DamagedPicturesAreLeftOut) {
-  ReportData data = FullReport(Floor(20));
+  const Floor floor(20);
+  ReportData data = FullReport(floor);
   data.keyframes[0].jpeg = "no picture";
   const std::string page = Write(data);
   EXPECT_EQ(MisplacedTag(page), "");
@@ -242,7 +249,8 @@ TEST(ReportTest, DamagedPicturesAreLeftOut) {
 }
 
 TEST(ReportTest, OfManyObjectsTheSurestAreShown) {
-  ReportData data = FullReport(Floor(5));
+  const Floor floor(5);
+  ReportData data = FullReport(floor);
   data.map.objects.resize(30, data.map.objects[0]);
   data.map.objects[20].confidence = 0.99;
   const std::string page = Write(data, {.max_objects = 10});
@@ -252,7 +260,8 @@ TEST(ReportTest, OfManyObjectsTheSurestAreShown) {
 }
 
 TEST(ReportTest, OfManyKeyframesSomeAreShown) {
-  ReportData data = FullReport(Floor(5));
+  const Floor floor(5);
+  ReportData data = FullReport(floor);
   data.keyframes.resize(50, data.keyframes[0]);
   const std::string page = Write(data, {.max_keyframes = 8});
   EXPECT_EQ(CountOf(page, "class=\"keyframe\""), 8);
@@ -260,7 +269,8 @@ TEST(ReportTest, OfManyKeyframesSomeAreShown) {
 }
 
 TEST(ReportTest, WithoutTruthThereIsNoErrorPlot) {
-  ReportData data = FullReport(Floor(5));
+  const Floor floor(5);
+  ReportData data = FullReport(floor);
   EXPECT_THAT(Write(data), HasSubstr("Distance from the truth"));
   data.accuracy.reset();
   EXPECT_THAT(Write(data), Not(HasSubstr("Distance from the truth")));
