@@ -1,10 +1,10 @@
-# semslam_embed_texts(OUTPUT file.cc HEADER header.h TYPE type FUNCTION function NAMES NAME|NAME_WE
+# semslam_embed_texts(OUTPUT file.cc HEADER header.h FUNCTION function NAMES NAME|NAME_WE
 #                     FILES a.yaml ...)
-# Writes a source file that holds the texts of files, each as a `type` of name (with or without
-# ending) and text; `function`, declared in the header, gives them as a span in that order. A changed
+# Writes a source file that holds the texts of files, each as an EmbeddedText of name (with or
+# without ending) and text; `function`, declared in the header, gives them as a span in that order. A changed
 # file is written anew at the next build.
 function(semslam_embed_texts)
-  cmake_parse_arguments(ARG "" "OUTPUT;HEADER;TYPE;FUNCTION;NAMES" "FILES" ${ARGN})
+  cmake_parse_arguments(ARG "" "OUTPUT;HEADER;FUNCTION;NAMES" "FILES" ${ARGN})
   set(entries "")
   foreach(file IN LISTS ARG_FILES)
     get_filename_component(name ${file} ${ARG_NAMES})
@@ -19,12 +19,12 @@ function(semslam_embed_texts)
 namespace semslam {
 namespace {
 
-constexpr @ARG_TYPE@ kTexts[] = {
+constexpr EmbeddedText kTexts[] = {
 @entries@};
 
 }  // namespace
 
-std::span<const @ARG_TYPE@> @ARG_FUNCTION@() { return kTexts; }
+std::span<const EmbeddedText> @ARG_FUNCTION@() { return kTexts; }
 
 }  // namespace semslam
 ]])

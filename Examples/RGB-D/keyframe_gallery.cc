@@ -5,11 +5,12 @@
 
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
+#include "semslam/io/jpeg.h"
 
 namespace {
 
 constexpr std::size_t kMaxPictures = 160;  // About 50 kB each.
+constexpr int kQuality = 85;               // Of JPEG.
 
 class WatchedDetector : public semslam::Detector {
  public:
@@ -29,20 +30,13 @@ class WatchedDetector : public semslam::Detector {
   std::shared_ptr<KeyframeGallery> gallery_;
 };
 
-// Empty if it cannot be done.
-std::string ToJpeg(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 85})) return "";
-  return {bytes.begin(), bytes.end()};
-}
-
 }  // namespace
 
 void KeyframeGallery::Add(const semslam::RgbdImage& keyframe) {
   const bool is_wanted =
       content_.Write([](Content& content) { return content.num_added++ % content.step == 0; });
   if (!is_wanted) return;
-  std::string jpeg = ToJpeg(keyframe.color);
+  std::string jpeg = semslam::EncodeJpeg(keyframe.color, kQuality);
   content_.Write([&](Content& content) {
     content.jpegs.emplace(keyframe.time, std::move(jpeg));
     if (content.jpegs.size() <= kMaxPictures) return;

@@ -5,18 +5,13 @@
 
 namespace {
 
-using semslam::kNoClass;
-
-// In files 0 means no class.
-std::uint32_t FileLabel(int class_id) {
-  return class_id == kNoClass ? 0 : static_cast<std::uint32_t>(class_id) + 1;
-}
+using semslam::LabelOfClass;
 
 std::vector<semslam::ClassRecord> ClassesOfInterest(const semslam::ClassTable& classes) {
   std::vector<semslam::ClassRecord> records;
   for (int id = 0; id < static_cast<int>(classes.size()); ++id) {
     if (classes.is_of_interest(id)) {
-      records.push_back({FileLabel(id), classes.name(id), classes.color(id)});
+      records.push_back({LabelOfClass(id), classes.name(id), classes.color(id)});
     }
   }
   return records;
@@ -27,7 +22,7 @@ std::vector<semslam::ObjectRecord> ToRecords(const std::vector<semslam::Semantic
   for (const semslam::SemanticObject& object : objects) {
     semslam::ObjectRecord record;
     record.id = object.id;
-    record.label = FileLabel(object.class_id);
+    record.label = LabelOfClass(object.class_id);
     record.confidence = object.confidence;
     record.num_views = object.num_views;
     record.num_points = object.num_points;
@@ -42,7 +37,7 @@ std::vector<semslam::ObjectRecord> ToRecords(const std::vector<semslam::Semantic
 
 MapView::MapView(const semslam::PointCloudMapping::Result& map) {
   labels_.reserve(map.semantics.class_of_point.size());
-  for (const int class_id : map.semantics.class_of_point) labels_.push_back(FileLabel(class_id));
+  for (const int class_id : map.semantics.class_of_point) labels_.push_back(LabelOfClass(class_id));
   view_.cloud = {.positions = map.cloud.positions,
                  .colors = map.cloud.colors,
                  .normals = map.cloud.normals,

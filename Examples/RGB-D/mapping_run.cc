@@ -3,14 +3,10 @@
 
 #include "mapping_run.h"
 
-#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <memory>
-#include <thread>
 #include <utility>
-
-#include <opencv2/core/utility.hpp>
 
 #include "semslam/base/error.h"
 #include "semslam/io/atomic_file.h"
@@ -18,6 +14,7 @@
 #include "semslam/place/vocabulary.h"
 
 #include "interrupt.h"
+#include "opencv_threads.h"
 #include "printable.h"
 #include "result_files.h"
 #include "summary.h"
@@ -116,8 +113,7 @@ int MapFrames(const MappingArguments& arguments,
 
 int RunMappingProgram(const char* name, const std::function<int()>& run) {
   InstallInterruptHandler();
-  // Tracking keeps a core busy; OpenCV's own threads (the detector's) share the others.
-  cv::setNumThreads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
+  LeaveACoreToTracking();
   try {
     return run();
   } catch (const std::exception& error) {

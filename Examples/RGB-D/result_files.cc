@@ -7,13 +7,8 @@
 
 #include "semslam/base/error.h"
 #include "semslam/io/map_files.h"
-#include "semslam/io/trajectory_io.h"
 
 #include "map_view.h"
-
-namespace {
-
-using semslam::PointCloudMapping;
 
 semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>& poses) {
   semslam::Trajectory trajectory;
@@ -21,11 +16,9 @@ semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>
   return trajectory;
 }
 
-}  // namespace
-
 std::string WriteResults(const std::filesystem::path& folder,
                          const semslam::System& system,
-                         const PointCloudMapping::Result& map) {
+                         const semslam::PointCloudMapping::Result& map) {
   const std::function<void()> writers[] = {
       [&] {
         semslam::WriteTrajectory(folder / "CameraTrajectory.txt",

@@ -5,8 +5,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "semslam/io/trajectory_io.h"
 #include "semslam/pipeline/system.h"
+
+semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>& poses);
 
 // Writes the trajectories, clouds, objects and pictures of a run. Each file appears whole or not at
 // all; trajectories and map do not keep each other from being written. Returns the first thing that

@@ -10,10 +10,10 @@
 #include <CLI/CLI.hpp>
 
 #include "semslam/config/settings.h"
-#include "semslam/io/tum_dataset.h"
 
 #include "arguments.h"
 #include "mapping_run.h"
+#include "open_sequence.h"
 #include "progress_line.h"
 #include "run_loop.h"
 
@@ -53,11 +53,7 @@ RunOrigin Origin(const Arguments& arguments) {
 int MapSequence(const Arguments& arguments) {
   ProgressLine progress(kName);
   const semslam::Settings settings = LoadSettingsFor(arguments, progress);
-  semslam::TumDataset::Options options;
-  options.width = settings.camera.width;
-  options.height = settings.camera.height;
-  options.depth_factor = settings.depth_factor;
-  semslam::TumDataset sequence(arguments.sequence, arguments.associations, options);
+  semslam::TumDataset sequence = OpenSequence(arguments.sequence, arguments.associations, settings);
   RunOptions run;
   run.keep_frame_times = arguments.realtime;
   const auto why_no_frames = [&arguments] {

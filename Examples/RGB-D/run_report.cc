@@ -14,6 +14,7 @@
 #include "format_line.h"
 #include "peak_memory.h"
 #include "quantile.h"
+#include "result_files.h"
 
 namespace {
 
@@ -26,12 +27,6 @@ std::string Join(const std::vector<std::string>& words, const char* separator) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
   return text;
-}
-
-semslam::Trajectory ToTrajectory(const std::vector<semslam::System::TrackedPose>& poses) {
-  semslam::Trajectory trajectory;
-  for (const auto& pose : poses) trajectory.push_back({pose.time, pose.T_world_camera});
-  return trajectory;
 }
 
 double PathLength(const semslam::Trajectory& trajectory) {

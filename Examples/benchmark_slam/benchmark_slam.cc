@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,17 +17,18 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <opencv2/core/utility.hpp>
 
 #include "semslam/base/error.h"
 #include "semslam/base/stopwatch.h"
 #include "semslam/config/settings.h"
-#include "semslam/io/tum_dataset.h"
 #include "semslam/pipeline/system.h"
 #include "semslam/place/vocabulary.h"
 #include "semslam/semantics/darknet_detector.h"
 
 #include "measurements.h"
+#include "open_sequence.h"
+#include "opencv_threads.h"
+#include "quantile.h"
 #include "run_program.h"
 
 namespace {
@@ -93,11 +93,7 @@ struct RunTimes {
 
 std::vector<semslam::RgbdImagePtr> ReadImages(const Arguments& arguments,
                                               const semslam::Settings& settings) {
-  semslam::TumDataset::Options options;
-  options.width = settings.camera.width;
-  options.height = settings.camera.height;
-  options.depth_factor = settings.depth_factor;
-  semslam::TumDataset sequence(arguments.sequence, arguments.associations, options);
+  semslam::TumDataset sequence = OpenSequence(arguments.sequence, arguments.associations, settings);
   std::vector<semslam::RgbdImagePtr> images;
   while (auto image = sequence.Next())
     images.push_back(std::make_shared<const semslam::RgbdImage>(*std::move(image)));
@@ -157,13 +153,6 @@ std::vector<double> TimeExtraction(const semslam::Settings& settings,
   return seconds;
 }
 
-double Quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(
-      std::lround(fraction * static_cast<double>(values.size() - 1)))];
-}
-
 double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -215,7 +204,7 @@ int Run(const Arguments& arguments) {
       std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
   const double loading_seconds = loading.Seconds();
   const std::vector<semslam::RgbdImagePtr> images = ReadImages(arguments, settings);
-  cv::setNumThreads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
+  LeaveACoreToTracking();
   std::printf("vocabulary            %zu words, loaded in %.1f ms\n", vocabulary->num_words(),
               1e3 * loading_seconds);
   const std::vector<double> extraction = TimeExtraction(settings, images);

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "semslam/base/error.h"
-#include "semslam/config/settings.h"
-#include "semslam/io/tum_dataset.h"
 #include "semslam/semantics/label_baselines.h"
 #include "semslam/semantics/recorded_detector.h"
+
+#include "open_sequence.h"
 
 namespace {
 
@@ -20,31 +20,16 @@ using semslam::Detection;
 using semslam::LabelBaselines;
 using semslam::TumDataset;
 
-constexpr std::uint32_t kFirstLabel = 1;  // Of files: class id 0.
-
-// The file's labels of the result are class ids plus one.
-std::uint32_t LabelOf(int class_id) {
-  return class_id == semslam::kNoClass ? 0 : static_cast<std::uint32_t>(class_id) + kFirstLabel;
-}
-
 void CheckClasses(const ClassTable& classes,
                   const semslam::MapResult& result,
                   const BaselineFolders& folders) {
   for (const semslam::ClassRecord& record : result.classes) {
-    const std::uint32_t id = record.label - kFirstLabel;
+    const std::uint32_t id = record.label - semslam::LabelOfClass(0);
     if (id < classes.size() && classes.name(static_cast<int>(id)) == record.name) continue;
     throw semslam::InputError((folders.detections / "classes.names").string() +
                               ": expected the classes of the result, " + record.name + " in line " +
                               std::to_string(record.label) + ", found others");
   }
-}
-
-TumDataset OpenClip(const std::filesystem::path& folder, const semslam::Settings& settings) {
-  TumDataset::Options options;
-  options.width = settings.camera.width;
-  options.height = settings.camera.height;
-  options.depth_factor = settings.depth_factor;
-  return {folder, folder / "associations.txt", options};
 }
 
 const TumDataset::Entry& EntryAt(const TumDataset& clip,
@@ -66,12 +51,12 @@ void AddViews(const BaselineFolders& folders,
               const std::set<std::uint32_t>& labels,
               semslam::RecordedDetector& detector,
               LabelBaselines& baselines) {
-  const TumDataset clip = OpenClip(folders.clip, settings);
+  const TumDataset clip = OpenSequence(folders.clip, folders.clip / "associations.txt", settings);
   for (const auto& pose : semslam::ReadTrajectory(folders.result / "KeyFrameTrajectory.txt")) {
     const semslam::RgbdImage image = clip.Read(EntryAt(clip, pose.time, folders));
     std::vector<Detection> detections = detector.Detect(image);
     std::erase_if(detections, [&](const Detection& detection) {
-      return !labels.contains(LabelOf(detection.class_id));
+      return !labels.contains(semslam::LabelOfClass(detection.class_id));
     });
     baselines.AddView({pose.T_world_camera, image.depth, std::move(detections)});
   }
@@ -80,7 +65,7 @@ void AddViews(const BaselineFolders& folders,
 std::vector<std::uint32_t> LabelsOf(const std::vector<int>& classes) {
   std::vector<std::uint32_t> labels;
   labels.reserve(classes.size());
-  for (const int class_id : classes) labels.push_back(LabelOf(class_id));
+  for (const int class_id : classes) labels.push_back(semslam::LabelOfClass(class_id));
   return labels;
 }
 

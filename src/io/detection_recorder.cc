@@ -8,12 +8,12 @@
 #include <string_view>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/error.h"
 #include "semslam/base/time.h"
 #include "semslam/io/atomic_file.h"
+#include "semslam/io/jpeg.h"
 
 namespace semslam {
 namespace {
@@ -51,12 +51,6 @@ std::string LinesOf(const std::vector<Detection>& detections, const cv::Size& si
   return lines;
 }
 
-std::string JpegOf(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".jpg", image, bytes)) throw InputError("cannot encode an image as JPEG");
-  return {bytes.begin(), bytes.end()};
-}
-
 // A name in black or white on a plate of the box's colour.
 void DrawPlate(cv::Mat& image, const cv::Point& corner, std::string_view text, const Rgb& color) {
   constexpr double kScale = 0.45;
@@ -92,8 +86,10 @@ std::vector<Detection> DetectionRecorder::Detect(const RgbdImage& image) {
   std::vector<Detection> detections = detector_->Detect(image);
   const std::string name = FormatTime(image.time);
   WriteFileAtomically(folder_ / (name + ".txt"), LinesOf(detections, image.color.size()));
-  WriteFileAtomically(folder_ / (name + ".jpg"),
-                      JpegOf(DrawDetections(image.color, detections, detector_->classes())));
+  const std::string picture =
+      EncodeJpeg(DrawDetections(image.color, detections, detector_->classes()));
+  if (picture.empty()) throw InputError("cannot encode an image as JPEG");
+  WriteFileAtomically(folder_ / (name + ".jpg"), picture);
   return detections;
 }
 

@@ -22,8 +22,8 @@ namespace {
 
 std::string_view FindPageFile(std::string_view name) {
   const auto files = PageFiles();
-  const auto file =
-      std::find_if(files.begin(), files.end(), [&](const PageFile& f) { return f.name == name; });
+  const auto file = std::find_if(files.begin(), files.end(),
+                                 [&](const EmbeddedText& f) { return f.name == name; });
   SEMSLAM_CHECK(file != files.end()) << name;
   return file->text;
 }

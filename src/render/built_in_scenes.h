@@ -4,15 +4,11 @@
 
 #include <span>
 
+#include "semslam/base/embedded_text.h"
+
 namespace semslam {
 
-// A file of config/scenes, as it was when the library was built.
-struct BuiltInScene {
-  const char* name;
-  const char* text;
-};
-
-// By name. The build writes built_in_scenes.cc.
-std::span<const BuiltInScene> BuiltInScenes();
+// The files of config/scenes, by name. The build writes built_in_scenes.cc.
+std::span<const EmbeddedText> BuiltInScenes();
 
 }  // namespace semslam

@@ -16,12 +16,12 @@ bool IsPath(const std::string& scene) { return scene.find_first_of("./\\") != st
 
 std::vector<std::string> SceneNames() {
   std::vector<std::string> names;
-  for (const BuiltInScene& scene : BuiltInScenes()) names.emplace_back(scene.name);
+  for (const EmbeddedText& scene : BuiltInScenes()) names.emplace_back(scene.name);
   return names;
 }
 
 std::string SceneText(const std::string& name) {
-  for (const BuiltInScene& scene : BuiltInScenes()) {
+  for (const EmbeddedText& scene : BuiltInScenes()) {
     if (name == scene.name) return scene.text;
   }
   throw InputError("scene " + name + ": unknown, expected one of " + JoinNames(SceneNames()) +

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>
 
 #include "semslam/base/check.h"
@@ -14,12 +13,8 @@ namespace semslam {
 namespace {
 
 Rigid3 FromOpenCv(const cv::Vec3d& rotation, const cv::Vec3d& translation) {
-  const Eigen::Vector3d axis(rotation[0], rotation[1], rotation[2]);
-  const double angle = axis.norm();
-  Rigid3 T_camera_world;
-  if (angle > 0)
-    T_camera_world.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis / angle));
-  T_camera_world.translation = {translation[0], translation[1], translation[2]};
+  const Rigid3 T_camera_world = {ExpSO3({rotation[0], rotation[1], rotation[2]}),
+                                 {translation[0], translation[1], translation[2]}};
   return T_camera_world.Inverse();
 }
 

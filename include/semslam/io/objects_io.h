@@ -11,6 +11,7 @@
 
 #include "semslam/dense/rgb.h"
 #include "semslam/geometry/oriented_box.h"
+#include "semslam/semantics/class_table.h"
 
 namespace semslam {
 
@@ -21,6 +22,11 @@ struct ClassRecord {
   std::string name;
   Rgb color;
 };
+
+// The label of a class id of a ClassTable; 0 for kNoClass.
+inline std::uint32_t LabelOfClass(int class_id) {
+  return static_cast<std::uint32_t>(class_id - kNoClass);
+}
 
 struct ObjectRecord {
   std::uint32_t id = 0;     // From 1, as in the object column of the semantic map's files.

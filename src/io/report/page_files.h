@@ -4,15 +4,11 @@
 
 #include <span>
 
+#include "semslam/base/embedded_text.h"
+
 namespace semslam {
 
-// A file of src/io/report, as it was when the library was built.
-struct PageFile {
-  const char* name;
-  const char* text;
-};
-
-// By name with ending. The build writes page_files.cc.
-std::span<const PageFile> PageFiles();
+// The files of src/io/report, by name with ending. The build writes page_files.cc.
+std::span<const EmbeddedText> PageFiles();
 
 }  // namespace semslam

@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/parallel.h"
+#include "semslam/io/jpeg.h"
 
 namespace semslam {
 namespace {
@@ -28,19 +29,13 @@ cv::Mat Decode(const std::string& jpeg) {
   return cv::imdecode(bytes, cv::IMREAD_COLOR);
 }
 
-std::string Encode(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return {bytes.begin(), bytes.end()};
-}
-
 std::string Shrink(const std::string& jpeg, int width) {
   const cv::Mat image = Decode(jpeg);
   if (image.empty()) return "";
   cv::Mat small;
   const int height = std::max(1, cvRound(1.0 * image.rows * width / image.cols));
   cv::resize(image, small, {width, height}, 0, 0, cv::INTER_AREA);
-  return Encode(small);
+  return EncodeJpeg(small, kQuality);
 }
 
 // The rectangle around an object's box in a keyframe's recorded image, not clipped. Nothing if part
@@ -119,7 +114,7 @@ std::string CropObject(const cv::Mat& image, const ImageBox& box) {
   const cv::Mat part = image(CropAround(box, image.size()));
   const int interpolation = part.cols > kObjectWidth ? cv::INTER_AREA : cv::INTER_CUBIC;
   cv::resize(part, picture, {kObjectWidth, kObjectHeight}, 0, 0, interpolation);
-  return Encode(picture);
+  return EncodeJpeg(picture, kQuality);
 }
 
 }  // namespace
