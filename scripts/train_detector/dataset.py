@@ -18,12 +18,12 @@ def read_boxes(path):
 
 
 class Desks(torch.utils.data.Dataset):
-    """Items: picture (3, height, width), RGB in [0, 1], and its boxes as in read_boxes."""
+    """Items: picture (3, height, width), 8-bit RGB, and its boxes as in read_boxes. The seed, two
+    numbers, says how they are changed."""
 
-    def __init__(self, folder, width, height, augment, seed=0):
+    def __init__(self, folder, width, height, augment, seed=(0, 0)):
         self.pictures = sorted(pathlib.Path(folder).glob("*.jpg"))
         self.width, self.height, self.augment, self.seed = width, height, augment, seed
-        self.epoch = 0
 
     def __len__(self):
         return len(self.pictures)
@@ -33,7 +33,7 @@ class Desks(torch.utils.data.Dataset):
         picture = cv2.imread(str(path))
         boxes = read_boxes(path.with_suffix(".txt"))
         if self.augment:
-            random = np.random.default_rng([self.seed, self.epoch, index])
+            random = np.random.default_rng([*self.seed, index])
             picture, boxes = crop(picture, boxes, self.width, self.height, random)
             picture = recolor(picture, random)
         else:

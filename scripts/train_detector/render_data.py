@@ -78,7 +78,10 @@ def rotation(quaternion):
 def without_thin_parts(mask, instance, pose, focal_lengths):
     centre = (np.array(instance["center"]) - pose[:3]) @ rotation(pose[3:])
     pixels = int(np.ceil(MIN_THICKNESS * focal_lengths[0] / max(centre[2], 0.1)))
-    return cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((pixels, pixels), np.uint8))
+    square, anchor = np.ones((pixels, pixels), np.uint8), pixels // 2
+    eroded = cv2.erode(mask, square, anchor=(anchor, anchor))
+    back = pixels - 1 - anchor  # Else squares of even size would shift the rest.
+    return cv2.dilate(eroded, square, anchor=(back, back))
 
 
 def full_area(instance, pose, focal_lengths):

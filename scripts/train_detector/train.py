@@ -23,7 +23,7 @@ from dataset import Desks, collate
 from loss import detection_loss
 from precision import average_precision, suppress
 
-SMALL_PART = 0.5       # Of the epochs that learn from smaller pictures first, which is faster.
+SMALL_PART = 0.6       # Of the epochs that learn from smaller pictures first, which is faster.
 SMALL_SCALE = 2 / 3
 WARM_UP_STEPS = 200
 MEAN_STEPS = 400       # That the running mean looks back over.
@@ -51,11 +51,10 @@ class RunningMean:
                 mean.mul_(keep).add_(values[name], alpha=1 - keep)
 
 
-def set_small(desks, network, is_small):
-    """Smaller pictures, still multiples of 32 pixels."""
+def input_size(network, is_small):
+    """Of the pictures in an epoch; multiples of 32."""
     scale = SMALL_SCALE if is_small else 1
-    desks.width = round(network.width * scale / 32) * 32
-    desks.height = round(network.height * scale / 32) * 32
+    return [round(size * scale / 32) * 32 for size in (network.width, network.height)]
 
 
 @torch.no_grad()
@@ -87,23 +86,22 @@ def prepare(network):
 
 
 def train(network, arguments, names):
-    desks = Desks(arguments.data, network.width, network.height, augment=True, seed=arguments.seed)
     optimizer = torch.optim.AdamW(parameter_groups(network), lr=arguments.rate)
     mean = RunningMean(network)
-    num_batches = len(desks) // arguments.batch
+    num_batches = arguments.pictures // arguments.batch
     num_steps, step, seen = arguments.epochs * num_batches, 0, 0
-    print(f"{len(desks)} pictures, {num_steps} steps", flush=True)
     for epoch in range(arguments.epochs):
-        desks.epoch = epoch
-        set_small(desks, network, epoch < SMALL_PART * arguments.epochs)
-        loader = torch.utils.data.DataLoader(desks, arguments.batch, shuffle=True, drop_last=True,
+        size = input_size(network, epoch < SMALL_PART * arguments.epochs)
+        desks = Desks(arguments.data, *size, augment=True, seed=(arguments.seed, epoch))
+        sampler = torch.utils.data.RandomSampler(desks, num_samples=num_batches * arguments.batch)
+        loader = torch.utils.data.DataLoader(desks, arguments.batch, sampler=sampler,
                                              num_workers=arguments.workers, collate_fn=collate)
         start, sums = time.time(), [0.0, 0.0, 0.0]
         network.train()
         for pictures, boxes in loader:
             for group in optimizer.param_groups:
                 group["lr"] = learning_rate(step, num_steps, arguments.rate)
-            loss, parts = detection_loss(network, network(pictures), boxes, desks.width, desks.height)
+            loss, parts = detection_loss(network, network(pictures), boxes, *size)
             optimizer.zero_grad()
             loss.backward()
             torch.nn.utils.clip_grad_norm_(network.parameters(), 10.0)
@@ -130,6 +128,7 @@ def main():
     parser.add_argument("--check-every", type=int, default=2, help="epochs")
     parser.add_argument("--start", type=pathlib.Path, help="weights to start from")
     parser.add_argument("--epochs", type=int, default=20)
+    parser.add_argument("--pictures", type=int, default=1600, help="in an epoch")
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=3e-3, help="highest learning rate")
     parser.add_argument("--seed", type=int, default=1)

@@ -38,9 +38,13 @@ double OutlineArea(const OrientedBox& box,
 cv::Mat WithoutThinParts(const cv::Mat& mask, double thickness_px) {
   constexpr int kMaxPixels = 101;  // Of something right before the lens.
   const int pixels = std::clamp(static_cast<int>(std::ceil(thickness_px)), 1, kMaxPixels);
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {pixels, pixels});
+  const int anchor = pixels / 2;
+  const int back = pixels - 1 - anchor;  // Else squares of even size would shift the rest.
+  cv::Mat eroded;
+  cv::erode(mask, eroded, square, {anchor, anchor});
   cv::Mat opened;
-  cv::morphologyEx(mask, opened, cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_RECT, {pixels, pixels}));
+  cv::dilate(eroded, opened, square, {back, back});
   return opened;
 }
 
