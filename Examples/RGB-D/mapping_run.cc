@@ -51,6 +51,13 @@ std::string RemainingSteps(const semslam::System::Status& status) {
   return text + "segments, objects, files";
 }
 
+// Which keyframes that wait for the detector still get labels.
+semslam::System::PendingLabels AtTheEnd(const MappingArguments& arguments, bool interrupted) {
+  if (interrupted) return semslam::System::PendingLabels::kDropAndBreakOff;
+  return arguments.drop_late ? semslam::System::PendingLabels::kDrop
+                             : semslam::System::PendingLabels::kFinish;
+}
+
 // What went wrong, if something did.
 std::string WriteFiles(const MappingArguments& arguments,
                        const semslam::System& system,
@@ -95,8 +102,7 @@ int MapFrames(const MappingArguments& arguments,
   }
   progress.ShowStep(RemainingSteps(system.status()));
   const semslam::PointCloudMapping::Result map =
-      system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
-                                      : semslam::System::PendingLabels::kFinish);
+      system.Shutdown(AtTheEnd(arguments, run.interrupted));
   std::string error = WriteFiles(arguments, system, map);
   try {
     const MapView view(map);

@@ -140,6 +140,8 @@ semslam::ReportSpeed MakeSpeed(const RunStatistics& run,
   if (system.has_detector()) {
     speed.facts.push_back(
         {"detector, an image", Line("%.1f ms", system.detector_statistics().mean_milliseconds)});
+    speed.facts.push_back({"images that waited for it",
+                           Line("%zu at most", system.detector_statistics().longest_queue)});
   }
   if (run.num_late)
     speed.facts.push_back(

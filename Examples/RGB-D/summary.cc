@@ -35,8 +35,9 @@ void PrintSemantics(const semslam::System& system, const semslam::PointCloudMapp
   const std::string classes = CountClasses(map.semantics);
   std::printf("objects               %zu%s%s\n", map.semantics.objects.size(),
               classes.empty() ? "" : ": ", classes.c_str());
-  std::printf("images labelled       %zu of %zu keyframes, %.1f ms each\n", detector.num_done,
-              detector.num_submitted, detector.mean_milliseconds);
+  std::printf("images labelled       %zu of %zu keyframes, %.1f ms each, at most %zu waited\n",
+              detector.num_done, detector.num_submitted, detector.mean_milliseconds,
+              detector.longest_queue);
   if (detector.num_failed > 0) {
     std::printf("images not labelled   %zu: %s\n", detector.num_failed,
                 Printable(detector.first_error).c_str());

@@ -21,9 +21,10 @@
 #include "semslam/eval/true_boxes.h"
 #include "semslam/io/instances_io.h"
 #include "semslam/io/trajectory_io.h"
-#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/network_options.h"
 
 #include "format_line.h"
+#include "network_argument.h"
 #include "open_sequence.h"
 #include "quantile.h"
 #include "run_program.h"
@@ -34,7 +35,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<fs::path> clips;
-  std::vector<fs::path> network;
+  std::vector<std::string> network;
   std::size_t every = 1;
   int threads = 0;
   // Far below what is worth acting on: average precision looks at the whole curve.
@@ -49,8 +50,9 @@ struct Findings {
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("CLIP", arguments.clips, "Folders that render_clip wrote")->required();
-  app.add_option("--network", arguments.network, "Darknet detector and its class names")
-      ->expected(3)
+  app.add_option("--network", arguments.network,
+                 "Network that is looked at: of Darknet, or FILE.onnx NAMES")
+      ->expected(2, 3)
       ->required()
       ->type_name("CFG WEIGHTS NAMES");
   app.add_option("--every", arguments.every, "Look at every so many pictures only")
@@ -92,7 +94,7 @@ const semslam::Rigid3& PoseAt(const semslam::Trajectory& trajectory,
 
 void LookAt(const fs::path& clip,
             std::size_t every,
-            semslam::DarknetDetector& detector,
+            semslam::Detector& detector,
             Findings& findings) {
   const semslam::Settings settings = semslam::LoadSettings(clip / "settings.yaml");
   const auto instances = semslam::ReadInstances(clip / "instances.json");
@@ -133,19 +135,17 @@ std::string Table(const Findings& findings, const semslam::ClassTable& classes) 
 
 int Run(const Arguments& arguments) {
   if (arguments.threads > 0) cv::setNumThreads(arguments.threads);
-  semslam::DarknetDetector::Options options;
-  options.config = arguments.network.at(0);
-  options.weights = arguments.network.at(1);
+  semslam::NetworkOptions options;
+  const fs::path names = TakeNetwork(arguments.network, options);
   options.input_size = arguments.input_size;
   options.score_threshold = arguments.score_threshold;
   options.min_class_score = std::min(options.min_class_score, options.score_threshold);
-  semslam::DarknetDetector detector(options,
-                                    semslam::ClassTable::FromFile(arguments.network.at(2)));
+  const auto detector = semslam::MakeNetworkDetector(options, semslam::ClassTable::FromFile(names));
   Findings findings;
   for (const fs::path& clip : arguments.clips) {
-    LookAt(clip, arguments.every, detector, findings);
+    LookAt(clip, arguments.every, *detector, findings);
   }
-  std::cout << Table(findings, detector.classes());
+  std::cout << Table(findings, detector->classes());
   return 0;
 }
 

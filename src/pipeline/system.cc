@@ -197,12 +197,12 @@ void System::LogNewLoops() {
 PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   mapping_stage_.Finish();
   loop_stage_.Finish();
-  if (pending == PendingLabels::kDrop) break_off_.request_stop();
+  if (pending == PendingLabels::kDropAndBreakOff) break_off_.request_stop();
   full_bundle_stage_.Finish();
   if (loop_settings_.final_bundle) AdjustAll();
   LogNewLoops();
   if (detector_) {
-    pending == PendingLabels::kDrop ? detector_->Cancel() : detector_->Finish();
+    pending == PendingLabels::kFinish ? detector_->Finish() : detector_->Cancel();
   }
   is_shut_down_ = true;
   return point_cloud_mapping_.Finish();

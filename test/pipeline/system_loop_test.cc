@@ -111,7 +111,7 @@ TEST_F(SystemLoop, MayBeLeftAtAnyMoment) {
   for (const int num_frames : {62, 66, 70, 74}) {
     const auto system = MakeSystem(Threading::kWorkers);
     Track(*system, 0, num_frames);
-    if (num_frames % 4 == 0) system->Shutdown(System::PendingLabels::kDrop);
+    if (num_frames % 4 == 0) system->Shutdown(System::PendingLabels::kDropAndBreakOff);
   }
 }
 

@@ -88,13 +88,13 @@ class System {
   // of the wrong size or type throws std::logic_error. Rethrows what a thread threw.
   Tracking::Result TrackRGBD(const RgbdImagePtr& image);
 
-  // Images that still wait for the detector when the run ends.
-  enum class PendingLabels { kFinish, kDrop };
+  // Images that still wait for the detector when the run ends: all are looked at, or only the one
+  // in hand; and in a hurry the bundle adjustment after a loop is broken off too.
+  enum class PendingLabels { kFinish, kDrop, kDropAndBreakOff };
 
-  // Lets every thread finish what is queued (kDrop: but the detector only the image in hand, and
-  // the bundle adjustment after a loop is broken off), and returns the final dense, segmented and
-  // labelled map. Call it once; the trajectories stay available. Without it, the destructor ends
-  // the threads and drops what is queued.
+  // Lets every thread finish what is queued, but for what `pending` says, and returns the final
+  // dense, segmented and labelled map. Call it once; the trajectories stay available. Without it,
+  // the destructor ends the threads and drops what is queued.
   PointCloudMapping::Result Shutdown(PendingLabels pending = PendingLabels::kFinish);
 
   // Writes everything that a later run needs to go on, in one file, complete or not at all. After
