@@ -131,6 +131,7 @@ std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& argume
   options.min_class_score = std::min(options.min_class_score, score);
   options.nms_threshold = static_cast<float>(settings.nms_threshold);
   options.input_size = settings.input_size;
+  options.letterbox = settings.letterbox;
   options.backend = settings.backend;
   options.target = settings.target;
   return semslam::MakeNetworkDetector(options,

@@ -141,8 +141,8 @@ DarknetDetector::~DarknetDetector() = default;
 std::vector<Detection> DarknetDetector::Detect(const RgbdImage& image) {
   const cv::Mat& color = image.color;
   SEMSLAM_CHECK(!color.empty() && color.type() == CV_8UC3) << "type " << color.type();
-  const Letterbox letterbox =
-      Letterbox::Fit(color.cols, color.rows, network_->width(), network_->height());
+  const auto place = options_.letterbox ? Letterbox::Fit : Letterbox::Stretch;
+  const Letterbox letterbox = place(color.cols, color.rows, network_->width(), network_->height());
   const std::vector<cv::Mat> outputs = network_->Forward(MakeBlob(color, letterbox));
   std::vector<Detection> detections =
       DecodeAll(outputs, static_cast<int>(classes_.size()), letterbox, options_.score_threshold);

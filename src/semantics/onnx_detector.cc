@@ -143,8 +143,8 @@ std::vector<Detection> OnnxDetector::Detect(const RgbdImage& image) {
   const cv::Mat& color = image.color;
   SEMSLAM_CHECK(!color.empty() && color.type() == CV_8UC3) << "type " << color.type();
   const int num_classes = static_cast<int>(classes_.size());
-  const Letterbox letterbox =
-      Letterbox::Fit(color.cols, color.rows, network_->size(), network_->size());
+  const auto place = options_.letterbox ? Letterbox::Fit : Letterbox::Stretch;
+  const Letterbox letterbox = place(color.cols, color.rows, network_->size(), network_->size());
   std::vector<Detection> detections =
       DecodeAll(network_->Forward(MakeBlob(color, letterbox)), letterbox, num_classes, options_);
   detections =

@@ -6,12 +6,12 @@ import unittest
 from harness import BIN, CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
 PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
-            "evaluate_segmentation", "segment_cloud", "map_info", "benchmark_slam",
+            "evaluate_detector", "evaluate_segmentation", "segment_cloud", "map_info", "benchmark_slam",
             "train_vocabulary"]
 if (BIN / "rgbd_openni2").exists():  # Only where OpenNI2 is installed.
     PROGRAMS.append("rgbd_openni2")
 OPTIONS = ["--output", "--network", "--detections", "--save-detections", "--classes", "--score",
-           "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
+           "--drop-late", "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
            "--localization", "--help", "--version"]
 
 

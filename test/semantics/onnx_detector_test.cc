@@ -43,6 +43,18 @@ TEST_P(OnnxDetectorTest, GivesBoxesOfTheImageAndScores) {
   EXPECT_FLOAT_EQ(found[1].score, 0.5F);
 }
 
+TEST_P(OnnxDetectorTest, StretchesTheImageWhenToldTo) {
+  NetworkOptions options = OptionsOf(GetParam());
+  options.letterbox = false;
+  const auto detector = MakeNetworkDetector(options, ClassTable({"a", "b"}));
+  const std::vector<Detection> found =
+      detector->Detect({0, cv::Mat(96, 128, CV_8UC3, cv::Scalar(1, 2, 3)), {}});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_FLOAT_EQ(found[0].box.min_x, 2 * (32 - 10));
+  EXPECT_FLOAT_EQ(found[0].box.min_y, 1.5F * (32 - 5));
+  EXPECT_FLOAT_EQ(found[0].box.max_y, 1.5F * (32 + 5));
+}
+
 TEST_P(OnnxDetectorTest, RefusesClassNamesOfAnotherNumber) {
   EXPECT_THAT(
       [] {

@@ -29,6 +29,7 @@ struct DetectorSettings {
   double score_threshold = 0.25;
   double nms_threshold = 0.45;  // Overlap above which the weaker detection of a class is dropped.
   int input_size = 0;           // Pixels; 0: as the cfg says, 640 for ONNX.
+  bool letterbox = true;        // Images keep their proportions; else they are stretched.
   std::string backend = "opencv";  // What computes: see semantics/network_options.h.
   std::string target = "cpu";
 };

@@ -16,6 +16,8 @@ struct NetworkOptions {
   std::filesystem::path weights;  // and Darknet's .weights; ONNX has none.
   // Pixels, a multiple of 32; 0: as the cfg says, 640 for ONNX.
   int input_size = 0;
+  bool letterbox = true;          // The image keeps its proportions and gets a grey border; else it
+                                  // is stretched to fill the input.
   float score_threshold = 0.25F;  // Detections with a lower best score are left out.
   float nms_threshold = 0.45F;    // Overlap above which the weaker of one class is dropped.
   // Class scores below this are cut to 0; the rest form the detection's class distribution.
