@@ -124,7 +124,7 @@ int EdgeBits(const SurfacePoints& points, std::size_t a, std::size_t b) {
 
 // True if a pixel looks different from one of its neighbours: else smoothing would not show.
 bool HasContrast(const cv::Mat& radiance, int column, int row) {
-  constexpr float kLevel = 8.0F / 255.0F;  // Of gamma-coded colour: a step that noise hides.
+  constexpr float kLevel = 12.0F / 255.0F;  // Of gamma-coded colour: a step that noise hides.
   const auto& center = radiance.ptr<cv::Vec3f>(row)[column];
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
     const int x = std::clamp(column + dx, 0, radiance.cols - 1);
