@@ -25,12 +25,15 @@ float FastFloor(float value) {
   return whole > value ? whole - 1.0F : whole;
 }
 
-// Logarithm to base 2 of a number >= 1, linear between powers of two (at most 0.09 too low).
+// Logarithm to base 2 of a number >= 1, with an error below 0.01: a parabola between powers of two.
 float ApproximateLog2(float value) {
   constexpr int kMantissaBits = 23;
   constexpr int kBias = 127;
-  return static_cast<float>(std::bit_cast<std::int32_t>(value) - (kBias << kMantissaBits)) *
-         (1.0F / (1 << kMantissaBits));
+  const float linear =
+      static_cast<float>(std::bit_cast<std::int32_t>(value) - (kBias << kMantissaBits)) *
+      (1.0F / (1 << kMantissaBits));
+  const float part = linear - static_cast<float>(static_cast<int>(linear));
+  return linear + 0.34F * part * (1.0F - part);
 }
 
 // Between two texels: the first one's index, and the weight of the second in parts of kOne.
@@ -93,7 +96,7 @@ Eigen::Vector3f Texture::Sample(const Eigen::Vector2f& uv, float footprint) cons
   const float place = std::min(ApproximateLog2(texels), static_cast<float>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(place);
   // Near a level that one alone is taken: the other would hardly show, and costs as much.
-  constexpr float kAlone = 0.2F;
+  constexpr float kAlone = 0.02F;
   const float weight =
       (place - static_cast<float>(fine) - kAlone) * (1.0F / (1.0F - 2.0F * kAlone));
   const Eigen::Vector2f unit(uv.x() - FastFloor(uv.x()), 1.0F - (uv.y() - FastFloor(uv.y())));
