@@ -20,11 +20,11 @@ PointCloudMapping::PointCloudMapping(Threading threading,
                                      const Options& options,
                                      const PinholeCamera& camera,
                                      ClassTable classes,
-                                     PoseLookup pose_lookup)
+                                     PlaceLookup look_up)
     : options_(options),
       rays_(std::make_shared<const RayTable>(camera)),
       classes_(std::move(classes)),
-      pose_lookup_(std::move(pose_lookup)),
+      look_up_(std::move(look_up)),
       voxel_map_(options.voxels),
       stage_(
           {.threading = threading, .queue_capacity = options.queue_capacity, .is_background = true},
@@ -57,12 +57,8 @@ void PointCloudMapping::Process(Job job) {
 }
 
 void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_({keyframe});
-  if (poses.empty()) return;  // The map was cleared since.
   const Stopwatch stopwatch;
-  auto cloud = BuildKeyframeCloud(keyframe, image, rays_, options_.cloud);
-  voxel_map_.Integrate(cloud, poses.begin()->second);
-  clouds_[keyframe] = std::move(cloud);
+  clouds_[keyframe] = BuildKeyframeCloud(keyframe, image, rays_, options_.cloud);
   FollowPoses(options_.voxels.max_shift);
   integration_seconds_ += stopwatch.Seconds();
   ++num_integrated_;
@@ -72,20 +68,24 @@ void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
 void PointCloudMapping::FollowPoses(double max_shift) {
   std::vector<KeyframeId> ids;
   for (const auto& [id, cloud] : clouds_) ids.push_back(id);
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_(ids);
+  const Places places = look_up_(ids);
   for (const KeyframeId id : ids) {
-    if (poses.contains(id)) continue;
+    if (places.T_world_camera.contains(id)) continue;
     voxel_map_.Remove(id);
+    if (places.apart.contains(id)) continue;
     clouds_.erase(id);
     detections_.erase(id);
   }
-  voxel_map_.UpdatePoses(poses, max_shift);
+  voxel_map_.UpdatePoses(places.T_world_camera, max_shift);
+  for (const auto& [id, T_world_camera] : places.T_world_camera) {
+    if (!voxel_map_.Contains(id)) voxel_map_.Integrate(clouds_.at(id), T_world_camera);
+  }
 }
 
 std::vector<LabelledKeyframe> PointCloudMapping::LabelledKeyframes() const {
   std::vector<KeyframeId> ids;
   for (const auto& [id, detections] : detections_) ids.push_back(id);
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_(ids);
+  const std::map<KeyframeId, Rigid3> poses = look_up_(ids).T_world_camera;
   std::vector<LabelledKeyframe> views;
   for (const auto& [id, detections] : detections_) {
     const auto cloud = clouds_.find(id);

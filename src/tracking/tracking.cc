@@ -17,16 +17,18 @@
 namespace semslam {
 namespace {
 
-// The keyframe, or where it was erased as redundant, the kept one whose view is nearest to its own
-// (a radian counts as a metre). Null if the map was cleared since.
+// The keyframe, or where it was erased as redundant, the kept one of its piece whose view is
+// nearest to its own (a radian counts as a metre). Null if the map was cleared since.
 const Keyframe* NearestKeptKeyframe(const Map& map, KeyframeId id) {
   if (const Keyframe* keyframe = map.FindKeyframe(id)) return keyframe;
   const std::optional<Rigid3> T_world_erased = map.ResolvePose(id);
   if (!T_world_erased) return nullptr;
+  const std::optional<KeyframeId> piece = map.PieceOf(id);
   const Keyframe* nearest = nullptr;
   double least_difference = std::numeric_limits<double>::infinity();
   for (const KeyframeId candidate : map.KeyframeIds()) {
     const Keyframe& keyframe = map.keyframe(candidate);
+    if (keyframe.piece != piece) continue;
     const double difference =
         (keyframe.T_world_camera.translation - T_world_erased->translation).norm() +
         RotationAngle(keyframe.T_world_camera, *T_world_erased);
@@ -74,7 +76,7 @@ void Tracking::StartInLoadedMap() {
     const std::vector<KeyframeId> ids = map.KeyframeIds();
     if (ids.empty()) return;
     state_ = TrackingState::kLost;
-    map_is_loaded_ = true;
+    newest_loaded_ = ids.back();
     last_reference_ = ids.back();
     epoch_ = map.epoch();
   });
@@ -128,10 +130,22 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
+  if (options_.localization_only || !CanStartFrom(*frame)) return {};
+  return StartPiece(std::move(frame), Rigid3());
+}
+
+bool Tracking::CanStartFrom(const Frame& frame) const {
+  if (static_cast<int>(frame.keypoints.size()) <= options_.min_features_to_start) return false;
+  const auto num_points =
+      std::count_if(frame.keypoints.begin(), frame.keypoints.end(),
+                    [](const Keypoint& keypoint) { return keypoint.has_depth(); });
+  return num_points >= options_.min_close_points;
+}
+
+Tracking::Result Tracking::StartPiece(std::shared_ptr<const Frame> frame,
+                                      const Rigid3& T_world_camera) {
   Result result;
-  if (options_.localization_only) return result;
-  if (static_cast<int>(frame->keypoints.size()) <= options_.min_features_to_start) return result;
-  TrackedFrame first = EmptyFrame(std::move(frame), Rigid3());
+  TrackedFrame first = EmptyFrame(std::move(frame), T_world_camera);
   const NewPointOptions all_points{.close_depth_m = std::numeric_limits<double>::infinity(),
                                    .min_count = 0};
   const KeyframeId id = map_.Write([&](Map& map) {
@@ -146,12 +160,13 @@ Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
   state_ = TrackingState::kTracking;
   num_frames_since_keyframe_ = 0;
   num_frames_tracked_ = 1;
-  num_frames_lost_ = 0;
+  num_frames_lost_ = num_good_frames_lost_ = 0;
   last_reference_ = id;
   T_reference_last_ = Rigid3();
   T_last_next_.reset();
   num_frames_since_found_ = options_.keyframes.max_frames_between;
   result.state = state_;
+  result.T_world_camera = T_world_camera;
   result.reference_keyframe = id;
   result.num_inliers = first.NumLandmarks();
   result.new_keyframe = id;

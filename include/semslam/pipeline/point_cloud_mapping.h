@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "semslam/base/binary_stream.h"
@@ -38,9 +39,13 @@ class PointCloudMapping {
     void Validate() const;
   };
 
-  // Poses of keyframes by id; those no longer in the map (it was cleared) are missing. Called from
-  // this class's thread.
-  using PoseLookup = std::function<std::map<KeyframeId, Rigid3>(const std::vector<KeyframeId>&)>;
+  // Where keyframes are. Those no longer in the map (it was cleared) are in neither.
+  struct Places {
+    std::map<KeyframeId, Rigid3> T_world_camera;
+    std::set<KeyframeId> apart;  // In the map, but how they lie to the world is not known yet.
+  };
+  // Called from this class's thread.
+  using PlaceLookup = std::function<Places(const std::vector<KeyframeId>&)>;
 
   struct Result {
     MapCloud cloud;
@@ -55,7 +60,7 @@ class PointCloudMapping {
                     const Options& options,
                     const PinholeCamera& camera,
                     ClassTable classes,
-                    PoseLookup pose_lookup);
+                    PlaceLookup look_up);
 
   // False once finished or failed.
   bool InsertKeyframe(KeyframeId keyframe, RgbdImagePtr image);
@@ -99,7 +104,7 @@ class PointCloudMapping {
   const Options options_;
   const std::shared_ptr<const RayTable> rays_;
   ClassTable classes_;
-  const PoseLookup pose_lookup_;
+  const PlaceLookup look_up_;
   // The stage's own, until it has finished.
   VoxelMap voxel_map_;
   std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds_;

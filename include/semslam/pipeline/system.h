@@ -63,6 +63,8 @@ class System {
     std::size_t num_voxels = 0;
     std::size_t num_relocalizations = 0;  // Losses after which the place was found again.
     std::size_t num_loops = 0;            // Closed.
+    std::size_t num_joins = 0;            // Pieces of the map that were joined to others.
+    std::size_t num_pieces = 0;           // Of the map, now.
     std::size_t num_full_bundles = 0;  // Bundle adjustments of the whole map that ran to the end.
     bool mapping_is_idle = true;       // Local mapping has nothing queued and nothing in hand.
     std::size_t mapping_queue = 0;
@@ -108,7 +110,8 @@ class System {
   // The settings with which a map file was made. Throws InputError if there are none in it.
   static Settings ReadMapSettings(const std::filesystem::path& path);
 
-  // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
+  // Poses of all frames that were tracked, and of all keyframes, as the map knows them now: those
+  // in its main piece, see Map::MainPiece.
   std::vector<TrackedPose> CameraTrajectory() const;
   std::vector<TrackedPose> KeyframeTrajectory() const;
 
@@ -142,8 +145,9 @@ class System {
   void CloseLoop(KeyframeId keyframe);
   void AdjustAll();
   void RethrowFailures();
+  void TellOfLosses(const Tracking::Result& result);
   void LogNewLoops();
-  std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
+  PointCloudMapping::Places LookUpPlaces(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
   void Tell(Step step, double seconds) const;
 
