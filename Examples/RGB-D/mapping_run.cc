@@ -39,7 +39,8 @@ semslam::System::Options SystemOptions(const MappingArguments& arguments,
 }
 
 bool IsTooMuchLost(const RunStatistics& run) {
-  const auto num_missed = static_cast<double>(run.num_lost() + run.num_unreadable);
+  const auto num_missed =
+      static_cast<double>(run.num_lost() + run.num_left_out + run.num_unreadable);
   return num_missed > kMaxLostShare * static_cast<double>(run.num_frames + run.num_unreadable);
 }
 
@@ -87,7 +88,7 @@ int MapFrames(const MappingArguments& arguments,
   options.fps = settings.fps;
   options.on_keyframe = [&](const semslam::RgbdImage& image) { gallery->Add(image); };
   options.should_stop = [] { return interrupt_requested != 0; };
-  const RunStatistics run = Run(source, system, options, progress);
+  RunStatistics run = Run(source, system, options, progress);
   // Nothing was mapped: results of an earlier run stay as they are.
   if (run.num_frames == 0) {
     throw semslam::InputError(
@@ -97,6 +98,7 @@ int MapFrames(const MappingArguments& arguments,
   const semslam::PointCloudMapping::Result map =
       system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
                                       : semslam::System::PendingLabels::kFinish);
+  run.LeaveOut(system.CameraTrajectory().size());
   std::string error = WriteFiles(arguments, system, map);
   try {
     const MapView view(map);
