@@ -61,7 +61,7 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   result.times.voxels = Lap(watch);
   const std::vector<Eigen::Vector3f> normals = ComputeVoxelNormals(grid, num_threads);
   result.times.normals = Lap(watch);
-  Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
+  Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels, num_threads);
   result.times.supervoxels = Lap(watch);
   PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.patches = Lap(watch);
