@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segmentation/patches.h"
 
-#include <bit>
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "semslam/base/parallel.h"
 
-#include "segmentation/radix_sort.h"
+#include "segmentation/key_numbers.h"
 
 namespace semslam {
 namespace {
@@ -36,15 +37,6 @@ std::vector<Patch> MakePatches(const VoxelGrid& grid,
   return patches;
 }
 
-// The voxel one step along an axis, if it is occupied.
-std::uint32_t StepAlong(const VoxelGrid& grid, std::uint32_t voxel, int axis, int direction) {
-  const Eigen::Vector3i target = grid.cells[voxel] + direction * Eigen::Vector3i::Unit(axis);
-  for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
-    if (grid.cells[other] == target) return other;
-  }
-  return kNoVoxel;
-}
-
 // Number of voxels of the surface that stand in one column with `voxel`, which is one of them.
 int CountColumn(const VoxelGrid& grid,
                 const std::vector<Eigen::Vector3f>& normals,
@@ -53,13 +45,15 @@ int CountColumn(const VoxelGrid& grid,
                 int axis) {
   constexpr float kMinCosine = 0.7F;  // Other voxels belong to another surface that ends here.
   constexpr int kMaxSteps = 8;
+  constexpr std::array<int, 3> kStrides = {1, 3, 9};
   int count = 1;
   for (const int direction : {-1, 1}) {
-    std::uint32_t next = StepAlong(grid, voxel, axis, direction);
+    const int bit = VoxelGrid::NeighbourBit(0, 0, 0) + direction * kStrides[axis];
+    std::uint32_t next = grid.NeighbourAt(voxel, bit);
     for (int i = 0; i < kMaxSteps && next != kNoVoxel; ++i) {
       if (normals[next].dot(patch_normal) < kMinCosine) break;
       ++count;
-      next = StepAlong(grid, next, axis, direction);
+      next = grid.NeighbourAt(next, bit);
     }
   }
   return count;
@@ -93,7 +87,9 @@ void MeasureAreas(const VoxelGrid& grid,
 }
 
 std::vector<PatchEdge> FindEdges(const VoxelGrid& grid, const Supervoxels& supervoxels) {
-  std::vector<KeyedIndex> contacts;
+  constexpr std::size_t kUsualEdges = 4;  // A patch.
+  KeyNumbers pairs(kUsualEdges * supervoxels.num_patches);
+  std::vector<std::uint32_t> num_contacts;
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
     const std::uint32_t a = supervoxels.patch_of_voxel[voxel];
     if (a == kNoPatch) continue;
@@ -101,19 +97,21 @@ std::vector<PatchEdge> FindEdges(const VoxelGrid& grid, const Supervoxels& super
       const std::uint32_t b = supervoxels.patch_of_voxel[other];
       // Both directions of a pair of voxels are seen; the one from the lower patch counts.
       if (b == kNoPatch || b <= a) continue;
-      contacts.push_back({std::uint64_t{a} * supervoxels.num_patches + b, 0});
+      const std::uint32_t pair = pairs.Insert(std::uint64_t{a} << 32 | b);
+      if (pair == num_contacts.size()) num_contacts.push_back(0);
+      ++num_contacts[pair];
     }
   }
-  const std::uint64_t num_pairs = std::uint64_t{supervoxels.num_patches} * supervoxels.num_patches;
-  RadixSort(contacts, static_cast<int>(std::bit_width(num_pairs)));
   std::vector<PatchEdge> edges;
-  for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
-    const std::uint64_t key = contacts[begin].key;
-    while (end < contacts.size() && contacts[end].key == key) ++end;
-    edges.push_back({static_cast<std::uint32_t>(key / supervoxels.num_patches),
-                     static_cast<std::uint32_t>(key % supervoxels.num_patches),
-                     static_cast<std::uint32_t>(end - begin)});
+  edges.reserve(num_contacts.size());
+  for (std::size_t i = 0; i < num_contacts.size(); ++i) {
+    const std::uint64_t key = pairs.keys()[i];
+    edges.push_back(
+        {static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key), num_contacts[i]});
   }
+  std::sort(edges.begin(), edges.end(), [](const PatchEdge& first, const PatchEdge& second) {
+    return std::pair(first.a, first.b) < std::pair(second.a, second.b);
+  });
   return edges;
 }
 
