@@ -7,6 +7,8 @@
 
 #include "semslam/base/parallel.h"
 
+#include "segmentation/patch_table.h"
+
 namespace semslam {
 namespace {
 
@@ -37,14 +39,15 @@ std::vector<double> SoftSupports(const std::vector<Patch>& patches,
                                  int num_threads) {
   // Weights below exp(-10) are not worth an exponential.
   const double max_cost = 20 * options.tolerance;
+  const PatchTable table(patches);
   std::vector<double> supports(planes.size(), 0.0);
   ParallelFor(planes.size(), 16, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t m = first; m < last; ++m) {
-      for (const Patch& patch : patches) {
-        if (std::abs(planes[m].SignedDistance(patch.centroid)) > max_cost) continue;
-        const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
-        if (cost <= max_cost) supports[m] += patch.area * SoftWeight(cost, options.tolerance);
-      }
+      table.Visit(planes[m], {max_cost, options.min_normal_cosine}, [&](std::size_t i) {
+        const double cost = PatchCost(patches[i], planes[m], options.min_normal_cosine);
+        if (cost > max_cost) return;
+        supports[m] += patches[i].area * SoftWeight(cost, options.tolerance);
+      });
     }
   });
   return supports;

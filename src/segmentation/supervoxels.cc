@@ -3,13 +3,16 @@
 #include "segmentation/supervoxels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "semslam/base/parallel.h"
 
 #include "segmentation/disjoint_sets.h"
+#include "segmentation/lanes.h"
 #include "segmentation/seed_cells.h"
 
 namespace semslam {
@@ -39,6 +42,29 @@ class PatchDistance {
     const float offset = std::max(std::abs(centre.normal.dot(away)) - offset_tolerance_, 0.0F);
     return spatial_factor_ * away.norm() + normal_factor_ * (1 - normal.dot(centre.normal)) +
            offset_factor_ * offset;
+  }
+
+  // Of four patches.
+  __m128 operator()(const FourPoints& centres,
+                    const Eigen::Vector3f& position,
+                    const Eigen::Vector3f& normal) const {
+    const auto load = [](const std::array<float, 4>& row) { return _mm_load_ps(row.data()); };
+    const __m128 x = _mm_sub_ps(_mm_set1_ps(position.x()), load(centres.x));
+    const __m128 y = _mm_sub_ps(_mm_set1_ps(position.y()), load(centres.y));
+    const __m128 z = _mm_sub_ps(_mm_set1_ps(position.z()), load(centres.z));
+    const __m128 nx = load(centres.normal_x);
+    const __m128 ny = load(centres.normal_y);
+    const __m128 nz = load(centres.normal_z);
+    const __m128 offset =
+        _mm_max_ps(_mm_sub_ps(Absolute(Dot(x, y, z, nx, ny, nz)), _mm_set1_ps(offset_tolerance_)),
+                   _mm_setzero_ps());
+    const __m128 cosine =
+        Dot(nx, ny, nz, _mm_set1_ps(normal.x()), _mm_set1_ps(normal.y()), _mm_set1_ps(normal.z()));
+    const __m128 away = _mm_sqrt_ps(Dot(x, y, z, x, y, z));
+    return _mm_add_ps(
+        _mm_add_ps(_mm_mul_ps(_mm_set1_ps(spatial_factor_), away),
+                   _mm_mul_ps(_mm_set1_ps(normal_factor_), _mm_sub_ps(_mm_set1_ps(1), cosine))),
+        _mm_mul_ps(_mm_set1_ps(offset_factor_), offset));
   }
 
  private:
@@ -79,6 +105,56 @@ std::vector<Centre> PlaceSeeds(const VoxelGrid& grid,
   return seeds;
 }
 
+// The centres around a cell, four at a time; lanes without one are infinitely far.
+struct CentreGroup {
+  FourPoints points;
+  alignas(16) std::array<std::uint32_t, 4> indices{};
+};
+
+std::vector<CentreGroup> GroupCentres(std::span<const std::uint32_t> indices,
+                                      const std::vector<Centre>& centres) {
+  constexpr float kNowhere = 1e15F;  // Its square is still a float.
+  std::vector<CentreGroup> groups((indices.size() + 3) / 4);
+  for (std::size_t i = 0; i < 4 * groups.size(); ++i) {
+    CentreGroup& group = groups[i / 4];
+    if (i < indices.size()) {
+      group.points.Set(i % 4, centres[indices[i]].position, centres[indices[i]].normal);
+      group.indices[i % 4] = indices[i];
+    } else {
+      group.points.Set(i % 4, Eigen::Vector3f::Constant(kNowhere), Eigen::Vector3f::Zero());
+      group.indices[i % 4] = kNoPatch;
+    }
+  }
+  return groups;
+}
+
+// Of equally near centres the first.
+std::uint32_t NearestOf(std::span<const CentreGroup> groups,
+                        const PatchDistance& distance_to,
+                        const Eigen::Vector3f& position,
+                        const Eigen::Vector3f& normal) {
+  alignas(16) std::array<float, 4> least{};
+  alignas(16) std::array<std::uint32_t, 4> indices{};
+  __m128 best = _mm_set1_ps(std::numeric_limits<float>::max());
+  __m128 best_indices = _mm_castsi128_ps(_mm_set1_epi32(-1));
+  for (const CentreGroup& group : groups) {
+    const __m128 distance = distance_to(group.points, position, normal);
+    const __m128 is_less = _mm_cmplt_ps(distance, best);
+    best = _mm_min_ps(distance, best);
+    const auto* words = reinterpret_cast<const float*>(group.indices.data());
+    best_indices = Choose(is_less, _mm_load_ps(words), best_indices);
+  }
+  _mm_store_ps(least.data(), best);
+  _mm_store_si128(reinterpret_cast<__m128i*>(indices.data()), _mm_castps_si128(best_indices));
+  std::size_t nearest = 0;
+  for (std::size_t lane = 1; lane < 4; ++lane) {
+    const bool is_nearer = least[lane] < least[nearest] ||
+                           (least[lane] == least[nearest] && indices[lane] < indices[nearest]);
+    if (is_nearer) nearest = lane;
+  }
+  return indices[nearest];
+}
+
 // The nearest of the centres around each voxel.
 std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
                                         const std::vector<Eigen::Vector3f>& normals,
@@ -90,16 +166,15 @@ std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
   positions.reserve(centres.size());
   for (const Centre& centre : centres) positions.push_back(centre.position);
   const SeedCells::Lists near = cells.FindNear(positions);
-  std::vector<std::uint32_t> nearest(grid.size(), kNoPatch);
+  std::vector<std::vector<CentreGroup>> groups(cells.num_cells());
+  for (std::uint32_t cell = 0; cell < groups.size(); ++cell) {
+    groups[cell] = GroupCentres(near.Of(cell), centres);
+  }
+  std::vector<std::uint32_t> nearest(grid.size());
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      float least = std::numeric_limits<float>::max();
-      for (const std::uint32_t i : near.Of(cells.cell_of_voxel()[voxel])) {
-        const float distance = distance_to(centres[i], grid.centroids[voxel], normals[voxel]);
-        if (distance >= least) continue;
-        least = distance;
-        nearest[voxel] = i;
-      }
+      nearest[voxel] = NearestOf(groups[cells.cell_of_voxel()[voxel]], distance_to,
+                                 grid.centroids[voxel], normals[voxel]);
     }
   });
   return nearest;
