@@ -12,7 +12,6 @@
 namespace semslam {
 namespace {
 
-constexpr double kWrongNormalFactor = 100.0;
 constexpr double kSupportScale = 10.0;  // D = -S / (kSupportScale * A_min).
 // A little more than the double count, so that a plane without support of its own loses.
 constexpr double kOverlapFactor = 1.05;
@@ -26,12 +25,6 @@ double AngleTerm(const Plane& a, const Plane& b) {
 }
 
 }  // namespace
-
-double PatchCost(const Patch& patch, const Plane& plane, double min_normal_cosine) {
-  const double distance = std::abs(plane.SignedDistance(patch.centroid));
-  const bool agrees = std::abs(plane.normal.dot(patch.normal)) >= min_normal_cosine;
-  return agrees ? distance : kWrongNormalFactor * distance;
-}
 
 std::vector<double> SoftSupports(const std::vector<Patch>& patches,
                                  std::span<const Plane> planes,

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "semslam/base/parallel.h"
 
@@ -182,13 +183,31 @@ std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
 
 // The connected pieces of equal labels; of each voxel the first voxel of its piece.
 std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
-                                      const std::vector<std::uint32_t>& labels) {
+                                      const std::vector<std::uint32_t>& labels,
+                                      int num_threads) {
+  constexpr std::size_t kNumChunks = 8;
   DisjointSets sets(grid.size());
-  for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) {
-    for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
-      if (other >= voxel) break;  // They ascend.
-      if (labels[other] == labels[voxel]) sets.Join(voxel, other);
+  // Within chunks side by side; then what connects them.
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seams(kNumChunks);
+  ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      const std::size_t first = grid.size() * chunk / kNumChunks;
+      const std::size_t last = grid.size() * (chunk + 1) / kNumChunks;
+      for (auto voxel = static_cast<std::uint32_t>(first); voxel < last; ++voxel) {
+        for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
+          if (other >= voxel) break;  // They ascend.
+          if (labels[other] != labels[voxel]) continue;
+          if (other >= first) {
+            sets.Join(voxel, other);
+          } else {
+            seams[chunk].emplace_back(voxel, other);
+          }
+        }
+      }
     }
+  });
+  for (const auto& chunk : seams) {
+    for (const auto& [voxel, other] : chunk) sets.Join(voxel, other);
   }
   std::vector<std::uint32_t> pieces(grid.size());
   for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) pieces[voxel] = sets.Find(voxel);
@@ -282,7 +301,7 @@ Supervoxels GrowSupervoxels(const VoxelGrid& grid,
   for (int pass = 0; pass < options.num_passes; ++pass) {
     const std::vector<std::uint32_t> labels =
         AssignVoxels(grid, normals, centres, cells, distance_to, num_threads);
-    result = NumberPieces(FindPieces(grid, labels), options.min_voxels);
+    result = NumberPieces(FindPieces(grid, labels, num_threads), options.min_voxels);
     centres = CentresOf(grid, normals, result);
   }
   JoinCrumbs(grid, normals, centres, distance_to, result);

@@ -64,14 +64,23 @@ Bounds FindBounds(std::span<const Eigen::Vector3f> points, double max_coordinate
   return bounds;
 }
 
-// Position in voxels from the corner of the free cell below the cloud.
-Eigen::Vector3d GridPosition(const VoxelGrid& grid, const Eigen::Vector3f& point) {
-  const double voxels_per_metre = 1 / grid.voxel_size;
-  return (point.cast<double>() - grid.origin) * voxels_per_metre + Eigen::Vector3d::Ones();
-}
+// From points to positions in voxels from the corner of the free cell below the cloud.
+class GridPosition {
+ public:
+  explicit GridPosition(const VoxelGrid& grid)
+      : origin_(grid.origin), voxels_per_metre_(1 / grid.voxel_size) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3f& point) const {
+    return (point.cast<double>() - origin_) * voxels_per_metre_ + Eigen::Vector3d::Ones();
+  }
+
+ private:
+  Eigen::Vector3d origin_;
+  double voxels_per_metre_;
+};
 
 KeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
-  const Eigen::Vector3d extent = GridPosition(grid, high);
+  const Eigen::Vector3d extent = GridPosition(grid)(high);
   std::array<int, 3> bits{};
   for (int axis = 0; axis < 3; ++axis) {
     bits[axis] = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(extent[axis]) + 2));
@@ -86,12 +95,13 @@ std::vector<KeyedIndex> SortedKeys(const PointCloudView& cloud,
                                    int num_threads) {
   const double max_coordinate = kMaxVoxelsFromZero * grid.voxel_size;
   const bool all_usable = num_usable == cloud.points.size();
+  const GridPosition position_of(grid);
   std::vector<KeyedIndex> items(cloud.points.size());
   ParallelFor(items.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& point = cloud.points[i];
       if (!all_usable && !IsUsable(point, max_coordinate)) continue;
-      const Cell cell = GridPosition(grid, point).cast<std::int32_t>();
+      const Cell cell = position_of(point).cast<std::int32_t>();
       items[i] = {layout.Key(cell), static_cast<std::uint32_t>(i)};
     }
   });
@@ -106,6 +116,7 @@ std::vector<KeyedIndex> SortedKeys(const PointCloudView& cloud,
 // Mean position and side of the points of one voxel. The sums are of integers, so that their order
 // has no effect.
 void Accumulate(const PointCloudView& cloud,
+                const GridPosition& position_of,
                 std::span<const KeyedIndex> items,
                 std::size_t voxel,
                 VoxelGrid& grid) {
@@ -116,7 +127,7 @@ void Accumulate(const PointCloudView& cloud,
   Sum position = Sum::Zero();
   Sum view = Sum::Zero();
   for (const KeyedIndex& item : items) {
-    const Eigen::Vector3d offset = GridPosition(grid, cloud.points[item.index]) - corner;
+    const Eigen::Vector3d offset = position_of(cloud.points[item.index]) - corner;
     position += (offset * kPositionScale).cast<std::int64_t>();
     if (cloud.normals.empty()) continue;
     const Eigen::Vector3f& normal = cloud.normals[item.index];
@@ -136,22 +147,22 @@ void FillVoxels(const PointCloudView& cloud,
                 const KeyLayout& layout,
                 int num_threads,
                 VoxelGrid& grid) {
-  std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> begin;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (i > 0 && items[i].key == items[i - 1].key) continue;
-    begin.push_back(i);
+    begin.push_back(static_cast<std::uint32_t>(i));
     grid.keys.push_back(items[i].key);
   }
-  begin.push_back(items.size());
+  begin.push_back(static_cast<std::uint32_t>(items.size()));
   grid.cells.resize(grid.size());
   grid.centroids.resize(grid.size());
   grid.views.resize(grid.size());
-  grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
+  const GridPosition position_of(grid);
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
       const auto members = std::span(items).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
       grid.cells[voxel] = layout.CellOf(grid.keys[voxel]);
-      Accumulate(cloud, members, voxel, grid);
+      Accumulate(cloud, position_of, members, voxel, grid);
       for (const KeyedIndex& item : members) {
         grid.voxel_of_point[item.index] = static_cast<std::uint32_t>(voxel);
       }
