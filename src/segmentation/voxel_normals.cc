@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include <Eigen/Geometry>
 
@@ -20,6 +21,14 @@ constexpr std::size_t kGrain = 8192;
 // Moments in voxel units. Doubles, so that all can be taken about the same origin and simply added.
 class Moments {
  public:
+  // Of one point.
+  static Moments Of(const Eigen::Vector3d& p) {
+    Moments moments;
+    for (Eigen::Array2d& lane : moments.lanes_) lane.setZero();
+    moments.Add(p);
+    return moments;
+  }
+
   void Add(const Eigen::Vector3d& p) {
     lanes_[0] += Eigen::Array2d(1, p.x());
     lanes_[1] += Eigen::Array2d(p.y(), p.z());
@@ -47,18 +56,15 @@ class Moments {
 
  private:
   // 1 x | y z | xx xy | xz yy | yz zz.
-  std::array<Eigen::Array2d, 5> lanes_ = {Eigen::Array2d::Zero(), Eigen::Array2d::Zero(),
-                                          Eigen::Array2d::Zero(), Eigen::Array2d::Zero(),
-                                          Eigen::Array2d::Zero()};
+  std::array<Eigen::Array2d, 5> lanes_;
 };
 
-std::vector<Moments> RingMoments(const VoxelGrid& grid, int num_threads) {
-  std::vector<Moments> moments(grid.size());
+std::unique_ptr<Moments[]> RingMoments(const VoxelGrid& grid, int num_threads) {
+  auto moments = std::make_unique_for_overwrite<Moments[]>(grid.size());
   const double scale = 1.0 / grid.voxel_size;
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      Moments own;
-      own.Add(scale * grid.centroids[voxel].cast<double>());
+      Moments own = Moments::Of(scale * grid.centroids[voxel].cast<double>());
       for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
         own.Add(scale * grid.centroids[other].cast<double>());
       }
@@ -141,7 +147,7 @@ void OrientTheRest(const VoxelGrid& grid, std::vector<Eigen::Vector3f>& normals)
 }  // namespace
 
 std::vector<Eigen::Vector3f> ComputeVoxelNormals(const VoxelGrid& grid, int num_threads) {
-  const std::vector<Moments> rings = RingMoments(grid, num_threads);
+  const std::unique_ptr<Moments[]> rings = RingMoments(grid, num_threads);
   std::vector<Eigen::Vector3f> normals(grid.size(), Eigen::Vector3f::Zero());
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
