@@ -126,11 +126,13 @@ std::vector<Plate> DrawLabels(ImDrawList* canvas,
     if ((place.array() < 0).any() || (place.array() > size.array()).any()) continue;
     const ImVec2 text = ImGui::CalcTextSize(label.text.c_str());
     const Eigen::Vector2f half(0.5F * text.x + 1.6F * margin, 0.5F * text.y + 0.5F * margin);
-    const Plate plate = Place({i, place - half, place + half}, plates, size.y());
+    // Just above its place.
+    const Eigen::Vector2f middle(place.x(), place.y() - half.y());
+    const Plate plate = Place({i, middle - half, middle + half}, plates, size.y());
     plates.push_back(plate);
     const ImVec2 low(plate.low.x(), plate.low.y());
     const ImVec2 high(plate.high.x(), plate.high.y());
-    const float moved = 0.5F * (low.y + high.y) - place.y();
+    const float moved = 0.5F * (low.y + high.y) - middle.y();
     if (std::abs(moved) > half.y()) {
       canvas->AddLine({place.x(), place.y()}, {place.x(), moved > 0 ? low.y : high.y},
                       ToColor(label.color, 0.8F), scale);

@@ -79,7 +79,16 @@ void AddTrajectory(const MapScene& scene, DrawList* list) {
     list->AddFrustum(keyframe.T_world_camera, half_width, half_height, kDepth, kKeyframeStyle);
 }
 
-void AddObjects(const MapScene& scene, const OverlayOptions& options, DrawList* list) {
+// Above the middle of a box, as high as its highest corner.
+Eigen::Vector3d TopOf(const OrientedBox& box, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d up_box = box.T_world_box.rotation.conjugate() * up;
+  return box.T_world_box.translation + up_box.cwiseAbs().dot(box.half_size) * up;
+}
+
+void AddObjects(const MapScene& scene,
+                const LevelFrame& level,
+                const OverlayOptions& options,
+                DrawList* list) {
   for (const ObjectRecord& object : scene.map.objects) {
     const bool is_selected = options.selected_object == object.id;
     const Rgb color = ObjectColor(object, scene.map.classes);
@@ -87,7 +96,8 @@ void AddObjects(const MapScene& scene, const OverlayOptions& options, DrawList* 
                               .alpha = 1.0F,
                               .width = is_selected ? 3.0F : 1.8F,
                               .hidden_share = is_selected ? 0.6F : kHiddenBox});
-    list->AddLabel({object.centroid, ObjectTitle(object, scene.map.classes), color, is_selected});
+    list->AddLabel(
+        {TopOf(object.box, level.up), ObjectTitle(object, scene.map.classes), color, is_selected});
   }
 }
 
@@ -157,13 +167,31 @@ std::vector<Rgb> PointColors(const LabelledMapView& map,
   return colors;
 }
 
+std::vector<Eigen::Vector3f> PointsToShow(const MapScene& scene, const OverlayOptions& options) {
+  constexpr std::size_t kMaxPoints = 20000;
+  constexpr double kShareOfKeyframes = 0.3;
+  const std::span<const Eigen::Vector3f> cloud = scene.map.cloud.positions;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / kMaxPoints);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    if (cloud[i].allFinite()) points.push_back(cloud[i]);
+  }
+  if (!options.trajectory || scene.keyframes.empty()) return points;
+  const auto wanted =
+      static_cast<std::size_t>(kShareOfKeyframes * static_cast<double>(points.size()));
+  const std::size_t num_copies = 1 + wanted / scene.keyframes.size();
+  for (const TimedPose& keyframe : scene.keyframes)
+    points.insert(points.end(), num_copies, keyframe.T_world_camera.translation.cast<float>());
+  return points;
+}
+
 DrawList MakeOverlay(const MapScene& scene,
                      const LevelFrame& level,
                      const OverlayOptions& options) {
   DrawList list;
   if (options.grid) AddFloor(scene, level, &list);
   if (options.trajectory) AddTrajectory(scene, &list);
-  if (options.objects) AddObjects(scene, options, &list);
+  if (options.objects) AddObjects(scene, level, options, &list);
   return list;
 }
 

@@ -51,7 +51,7 @@ OrbitCamera MakeCamera(const MapScene& scene,
   camera.SetDirection(direction.azimuth, direction.elevation);
   // From above almost without perspective, as a plan.
   if (options.from == Viewpoint::kTop) camera.SetFieldOfView(0.2);
-  camera.Fit(scene.map.cloud.positions, options.width, options.height);
+  camera.Fit(PointsToShow(scene, options.overlay), options.width, options.height);
   return camera;
 }
 
@@ -89,6 +89,7 @@ cv::Mat TakePicture(const MapScene& scene, const PictureOptions& options) {
   renderer.Draw(camera, list,
                 {.point_size = scene.map.point_size,
                  .eye_dome = options.eye_dome,
+                 .fill_gaps = true,
                  .shade_by_normals = options.color != ColorMode::kPhoto,
                  .pixel_scale = static_cast<float>(scale)},
                 target.framebuffer());

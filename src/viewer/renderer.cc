@@ -28,8 +28,10 @@ namespace {
 constexpr float kEyeDomeStrength = 11.0F;
 constexpr float kMinPointSize = 1.4F;   // Pixels of the picture that people see.
 constexpr float kMaxPointSize = 60.0F;  // The same.
-// Discs of neighbours on a grid of this spacing cover all between them: its diagonal.
-constexpr double kDiameterPerSpacing = 1.44;
+constexpr float kMaxGap = 3.0F;         // Pixels of that picture, to either side.
+// Discs of neighbours on a grid of this spacing cover all between them: its diagonal,
+// and a bit, for they are not quite on a grid.
+constexpr double kDiameterPerSpacing = 1.6;
 
 struct PointVertex {
   Eigen::Vector3f position;
@@ -219,6 +221,9 @@ class Renderer::State {
     glUniform1f(compose_.Location("strength"), options.eye_dome ? kEyeDomeStrength : 0.0F);
     glUniform1i(compose_.Location("radius"),
                 std::max(1, static_cast<int>(std::lround(options.pixel_scale))));
+    glUniform1i(
+        compose_.Location("max_gap"),
+        options.fill_gaps ? static_cast<int>(std::lround(kMaxGap * options.pixel_scale)) : 0);
     glUniform3fv(compose_.Location("top"), 1, ToUnit(options.background_top).data());
     glUniform3fv(compose_.Location("bottom"), 1, ToUnit(options.background_bottom).data());
     glBindVertexArray(no_vertices_.id());

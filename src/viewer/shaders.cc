@@ -55,6 +55,7 @@ uniform sampler2D depths;
 uniform vec2 near_far;   // Metres.
 uniform float strength;  // Of eye-dome shading; 0: none.
 uniform int radius;      // Of its neighbourhood, pixels.
+uniform int max_gap;     // So many pixels to either side of a gap that is filled; 0: none.
 uniform vec3 top;        // Background.
 uniform vec3 bottom;
 out vec4 pixel;
@@ -66,10 +67,40 @@ float LogDepth(float depth) {
   return log2(2.0 * near_far.x * near_far.y / (sum - ndc * difference));
 }
 
+// The first pixel with a point on a way; the start if there is none.
+ivec2 FindPoint(ivec2 start, ivec2 way, ivec2 size) {
+  for (int i = 1; i <= max_gap; ++i) {
+    ivec2 other = start + i * way;
+    if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, size))) return start;
+    if (texelFetch(depths, other, 0).r < 1.0) return other;
+  }
+  return start;
+}
+
+// A pixel beside a gap in a surface, in which there are points of about the same depth on both
+// sides along two of four axes; the place itself if that is no such gap.
+ivec2 BesideGap(ivec2 place, ivec2 size) {
+  const ivec2 axes[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
+  int num_axes = 0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 a = FindPoint(place, axes[i], size);
+    if (a == place) continue;
+    ivec2 b = FindPoint(place, -axes[i], size);
+    if (b == place) continue;
+    float step = LogDepth(texelFetch(depths, a, 0).r) - LogDepth(texelFetch(depths, b, 0).r);
+    if (abs(step) < 0.07 && ++num_axes == 2) return a;
+  }
+  return place;
+}
+
 void main() {
   ivec2 size = textureSize(depths, 0);
   ivec2 place = ivec2(gl_FragCoord.xy);
   float depth = texelFetch(depths, place, 0).r;
+  if (depth == 1.0 && max_gap > 0) {
+    place = BesideGap(place, size);
+    depth = texelFetch(depths, place, 0).r;
+  }
   if (depth == 1.0) {
     pixel = vec4(mix(bottom, top, gl_FragCoord.y / float(size.y)), 1.0);
     return;

@@ -50,6 +50,10 @@ struct OverlayOptions {
   std::optional<std::uint32_t> selected_object;
 };
 
+// Points that a picture of all that is shown must hold: of the cloud, and the keyframes' places in
+// such number that a fit by quantiles (OrbitCamera::Fit) does not leave them out.
+std::vector<Eigen::Vector3f> PointsToShow(const MapScene& scene, const OverlayOptions& options);
+
 // Lines and names for all that is asked for and known.
 DrawList MakeOverlay(const MapScene& scene, const LevelFrame& level, const OverlayOptions& options);
 

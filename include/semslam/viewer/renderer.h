@@ -32,6 +32,7 @@ class Renderer {
   struct Options {
     double point_size = 0.01;      // Metres: what a point covers.
     bool eye_dome = true;          // Darkens what is behind an edge, so that depth can be read.
+    bool fill_gaps = false;        // Small ones, of surfaces seen from afar; costs time.
     bool shade_by_normals = true;  // Darkens surfaces seen from the side; needs normals.
     bool round_points = true;      // Slower than squares where there is no graphics card.
     // With more than these every second, third ... is drawn, larger.
