@@ -14,8 +14,10 @@
 #include "semslam/base/error.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/png_writer.h"
+#include "semslam/viewer/map_window.h"
 #include "semslam/viewer/picture.h"
 
+#include "interrupt.h"
 #include "opened_map.h"
 #include "run_program.h"
 
@@ -91,9 +93,18 @@ semslam::PictureOptions Options(const Arguments& arguments) {
 
 int Run(const Arguments& arguments) {
   const semslam::PictureOptions options = Options(arguments);
-  if (arguments.picture.empty()) throw semslam::InputError("expected --picture FILE.png");
-  semslam::CheckOutputFolder(std::filesystem::absolute(arguments.picture).parent_path());
+  if (!arguments.picture.empty())
+    semslam::CheckOutputFolder(std::filesystem::absolute(arguments.picture).parent_path());
   const OpenedMap map(arguments.map);
+  if (arguments.picture.empty()) {
+    InstallInterruptHandler();
+    semslam::ShowMap(map.scene(), {.title = arguments.map.string() + " - semslam",
+                                   .width = options.width,
+                                   .height = options.height,
+                                   .color = options.color,
+                                   .should_close = [] { return interrupt_requested != 0; }});
+    return 0;
+  }
   semslam::WritePng(arguments.picture, semslam::TakePicture(map.scene(), options),
                     semslam::PngContent::kPhoto);
   return 0;

@@ -41,6 +41,7 @@ bool PointCloudMapping::Restore(BinaryReader* reader) {
     const std::map<KeyframeId, Rigid3> poses = pose_lookup_({cloud->id()});
     if (poses.empty()) reader->Fail("a cloud belongs to a keyframe that is not there");
     if (!clouds_.emplace(cloud->id(), cloud).second) reader->Fail("a keyframe has two clouds");
+    sight_.Write([&](Sight& sight) { sight.clouds[cloud->id()] = cloud; });
     voxel_map_.Integrate(std::move(cloud), poses.begin()->second);
   }
   const ClassTable classes = ReadClassTable(reader);

@@ -43,9 +43,9 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
 
   Result result;
   last_reference_ = local_map_.reference_keyframe();
-  if (options_.localization_only) sightings_.clear();
-  if (!options_.localization_only && keyframe_policy_.WantsKeyframe(Assess(
-                                         current, located.num_inliers, last_reference_, mapper))) {
+  if (localization_only_) sightings_.clear();
+  if (!localization_only_ && keyframe_policy_.WantsKeyframe(
+                                 Assess(current, located.num_inliers, last_reference_, mapper))) {
     last_reference_ = InsertKeyframe(&current);
     T_reference_last_ = Rigid3();
     result.new_keyframe = last_reference_;
@@ -150,7 +150,8 @@ Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   result.state = state_;
   ++num_frames_lost_;
   const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
-  const bool is_worth_keeping = map_is_loaded_ || num_keyframes > options_.min_keyframes_to_keep;
+  const bool is_worth_keeping =
+      map_is_loaded_ || localization_only_ || num_keyframes > options_.min_keyframes_to_keep;
   if (is_worth_keeping || num_frames_lost_ < num_frames_tracked_) return result;
   // More was lost than was mapped: a fresh start is better; this frame may serve as the first.
   map_.Write([](Map& map) { map.Clear(); });

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "semslam/io/segment_color.h"
 
@@ -193,6 +194,27 @@ DrawList MakeOverlay(const MapScene& scene,
   if (options.trajectory) AddTrajectory(scene, &list);
   if (options.objects) AddObjects(scene, level, options, &list);
   return list;
+}
+
+std::optional<std::uint32_t> PickObject(std::span<const ObjectRecord> objects,
+                                        const Eigen::Vector3d& origin,
+                                        const Eigen::Vector3d& direction) {
+  std::optional<std::uint32_t> picked;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const ObjectRecord& object : objects) {
+    // Where the ray is between each pair of opposite faces; in all of them, it is inside.
+    const Rigid3 T_box_world = object.box.T_world_box.Inverse();
+    const Eigen::Array3d from = T_box_world * origin;
+    const Eigen::Array3d along = T_box_world.rotation * direction;
+    const Eigen::Array3d low = (-object.box.half_size.array() - from) / along;
+    const Eigen::Array3d high = (object.box.half_size.array() - from) / along;
+    const double enters = low.min(high).maxCoeff();
+    const double leaves = low.max(high).minCoeff();
+    if (!(leaves >= std::max(enters, 0.0)) || enters >= nearest) continue;
+    nearest = enters;
+    picked = object.id;
+  }
+  return picked;
 }
 
 std::string ObjectTitle(const ObjectRecord& object, std::span<const ClassRecord> classes) {

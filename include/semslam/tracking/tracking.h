@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "semslam/camera/pinhole_camera.h"
 #include "semslam/map/map.h"
@@ -59,13 +60,15 @@ class Tracking {
     Rigid3 T_reference_camera;
     int num_inliers = 0;  // Landmarks that agree with the pose.
     std::optional<KeyframeId>
-        new_keyframe;               // Inserted into the map with this frame; local mapping is due.
-    bool relocalized = false;       // The place was found again with this frame, after a loss.
-    bool map_was_reset = false;     // Everything before this frame is void.
-    bool was_skipped = false;       // Not newer than the frame before: nothing was done with it.
-    double first_pose_seconds = 0;  // Spent on a pose from the last frame or a keyframe,
-    double local_map_seconds = 0;   // on the local map,
-    double keyframe_seconds = 0;    // and on what follows.
+        new_keyframe;            // Inserted into the map with this frame; local mapping is due.
+    bool relocalized = false;    // The place was found again with this frame, after a loss.
+    bool map_was_reset = false;  // Everything before this frame is void.
+    bool was_skipped = false;    // Not newer than the frame before: nothing was done with it.
+    std::shared_ptr<const Frame> frame;  // What was seen; null if it was skipped.
+    std::vector<bool> shows_landmark;    // One a feature of `frame` while tracking, else empty.
+    double first_pose_seconds = 0;       // Spent on a pose from the last frame or a keyframe,
+    double local_map_seconds = 0;        // on the local map,
+    double keyframe_seconds = 0;         // and on what follows.
   };
 
   Tracking(const Options& options,
@@ -82,6 +85,11 @@ class Tracking {
   // up. Before the first frame; without keyframes in the map nothing changes.
   void StartInLoadedMap();
 
+  // Forgets all: the map is cleared, and the next frame may be the first.
+  void StartOver();
+  // From the next frame on: only find the camera, and leave the map as it is; or map again.
+  void SetLocalizationOnly(bool localization_only) { localization_only_ = localization_only; }
+
   TrackingState state() const { return state_; }
 
  private:
@@ -93,6 +101,7 @@ class Tracking {
   };
 
   Result Initialize(std::shared_ptr<const Frame> frame);
+  Result WithSight(Result result, std::shared_ptr<const Frame> frame) const;
   Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
   void BringLastFrameUpToDate();
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
@@ -121,6 +130,7 @@ class Tracking {
   const FrameLocator locator_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
+  bool localization_only_ = false;
   bool map_is_loaded_ = false;
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;

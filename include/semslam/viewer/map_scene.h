@@ -57,6 +57,11 @@ std::vector<Eigen::Vector3f> PointsToShow(const MapScene& scene, const OverlayOp
 // Lines and names for all that is asked for and known.
 DrawList MakeOverlay(const MapScene& scene, const LevelFrame& level, const OverlayOptions& options);
 
+// The object whose box a ray enters first; nothing if it meets none.
+std::optional<std::uint32_t> PickObject(std::span<const ObjectRecord> objects,
+                                        const Eigen::Vector3d& origin,
+                                        const Eigen::Vector3d& direction);
+
 // Text on an object's plate: "cup 87 %".
 std::string ObjectTitle(const ObjectRecord& object, std::span<const ClassRecord> classes);
 // Colour of the class, or white if it is not in the table.
