@@ -78,7 +78,7 @@ class MapWindow {
       if (object.id != id) continue;
       constexpr double kDistancePerSize = 5;
       camera_.LookAt(object.box.T_world_box.translation,
-                     std::max(0.3, kDistancePerSize * object.box.half_size.norm()));
+                     std::max(0.6, kDistancePerSize * object.box.half_size.norm()));
     }
     num_due_ = 3;
   }
