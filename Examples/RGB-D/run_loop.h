@@ -65,6 +65,9 @@ struct RunOptions {
   std::optional<LiveFeed> live;                                // If the source is a camera.
   std::function<void(const semslam::RgbdImage&)> on_frame;     // Gets every frame; may be empty.
   std::function<void(const semslam::RgbdImage&)> on_keyframe;  // The same for keyframes.
+  std::function<void()> before_frame;  // Between two frames; may wait, may be empty.
+  // After each frame, with what tracking made of it; may be empty.
+  std::function<void(const semslam::RgbdImagePtr&, const semslam::Tracking::Result&)> on_tracked;
 };
 
 // Feeds all frames of the source to the system. An unreadable frame is counted and skipped, and

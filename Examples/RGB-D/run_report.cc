@@ -12,7 +12,7 @@
 #include "semslam/eval/trajectory_error.h"
 
 #include "format_line.h"
-#include "peak_memory.h"
+#include "memory_use.h"
 #include "quantile.h"
 #include "result_files.h"
 
@@ -185,9 +185,9 @@ std::vector<ReportFact> Options(const RunOrigin& origin, const MappingArguments&
 }
 
 std::vector<semslam::ReportKeyframe> Keyframes(const semslam::System& system,
-                                               KeyframeGallery& gallery) {
+                                               const KeyframeGallery& gallery) {
   std::vector<semslam::ReportKeyframe> keyframes;
-  std::map<semslam::TimeNs, KeyframeGallery::Picture> pictures = gallery.Take();
+  std::map<semslam::TimeNs, KeyframeGallery::Picture> pictures = gallery.Copy();
   for (const auto& pose : system.KeyframeTrajectory()) {
     const auto picture = pictures.find(pose.time);
     if (picture == pictures.end()) continue;
@@ -206,7 +206,7 @@ ReportData MakeReport(const RunOrigin& origin,
                       const semslam::System& system,
                       const semslam::PointCloudMapping::Result& map,
                       const MapView& view,
-                      KeyframeGallery& gallery) {
+                      const KeyframeGallery& gallery) {
   ReportData report;
   report.title = origin.name;
   report.program = origin.program;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "peak_memory.h"
+#include "memory_use.h"
 #include "printable.h"
 #include "quantile.h"
 

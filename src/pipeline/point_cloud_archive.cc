@@ -43,6 +43,7 @@ bool PointCloudMapping::Restore(BinaryReader* reader) {
     if (places.T_world_camera.empty() && places.apart.empty())
       reader->Fail("a cloud belongs to a keyframe that is not there");
     if (!clouds_.emplace(id, cloud).second) reader->Fail("a keyframe has two clouds");
+    sight_.Write([&](Sight& sight) { sight.clouds[id] = cloud; });
     if (!places.apart.contains(id))
       voxel_map_.Integrate(std::move(cloud), places.T_world_camera.at(id));
   }

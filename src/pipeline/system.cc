@@ -136,6 +136,20 @@ void System::TellOfLosses(const Tracking::Result& result) {
   if (result.relocalized) events_.Write([](Events& e) { ++e.num_relocalizations; });
 }
 
+void System::Reset() {
+  tracking_.StartOver();
+  trajectory_.Write([](std::vector<TrajectoryEntry>& entries) { entries.clear(); });
+  trajectory_is_loaded_ = false;
+  LogNewLoops();
+  events_.Write([](Events& e) { e = {}; });
+  num_loops_logged_ = 0;
+  point_cloud_mapping_.FollowCorrection();
+}
+
+void System::SetLocalizationOnly(bool localization_only) {
+  tracking_.SetLocalizationOnly(localization_only);
+}
+
 // A repeated frame, or one that was overtaken on its way: trajectories are in the order of time.
 Tracking::Result System::Skipped(const RgbdImage& image) const {
   Log(LogLevel::kWarning, "frame skipped: expected a time after " + FormatTime(*last_time_) +
@@ -218,6 +232,10 @@ PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   return point_cloud_mapping_.Finish();
 }
 
+std::map<KeyframeId, Rigid3> System::KeyframePoses(const std::vector<KeyframeId>& ids) const {
+  return LookUpPlaces(ids).T_world_camera;
+}
+
 PointCloudMapping::Places System::LookUpPlaces(const std::vector<KeyframeId>& ids) const {
   return map_.Read([&](const Map& map) {
     const std::optional<KeyframeId> main = map.MainPiece();
@@ -285,6 +303,31 @@ System::Status System::status() const {
   status.dense_queue = point_cloud_mapping_.queue_size();
   status.detector_queue = detector_ ? detector_->queue_size() : 0;
   return status;
+}
+
+System::Graph System::graph(int min_shared) const {
+  const auto loops = events_.Read([](const Events& e) { return e.loops; });
+  return map_.Read([&](const Map& map) {
+    Graph graph;
+    std::map<KeyframeId, std::size_t> place;
+    for (const KeyframeId id : map.KeyframeIds()) {
+      const Keyframe& keyframe = map.keyframe(id);
+      place[id] = graph.keyframes.size();
+      graph.keyframes.push_back({id, keyframe.frame->time, keyframe.T_world_camera});
+    }
+    const auto add = [&place](KeyframeId a, KeyframeId b, std::vector<Graph::Edge>* edges) {
+      if (place.contains(a) && place.contains(b)) edges->emplace_back(place.at(a), place.at(b));
+    };
+    for (const auto& [id, index] : place) {
+      const Keyframe& keyframe = map.keyframe(id);
+      if (keyframe.parent) add(id, *keyframe.parent, &graph.tree);
+      for (const CovisibleKeyframe& other : keyframe.covisible) {
+        if (other.id < id && other.num_shared >= min_shared) add(id, other.id, &graph.covisible);
+      }
+    }
+    for (const LoopClosing::Loop& loop : loops) add(loop.keyframe, loop.place, &graph.loops);
+    return graph;
+  });
 }
 
 DetectorThread::Statistics System::detector_statistics() const {

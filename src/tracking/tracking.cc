@@ -65,6 +65,7 @@ Tracking::Tracking(const Options& options,
                baseline_times_fx,
                vocabulary_,
                map),
+      localization_only_(options.localization_only),
       keyframe_policy_(options.keyframes) {
   options_.Validate();
   SEMSLAM_CHECK(vocabulary_ != nullptr);
@@ -82,15 +83,33 @@ void Tracking::StartInLoadedMap() {
   });
 }
 
+void Tracking::StartOver() {
+  map_.Write([](Map& map) { map.Clear(); });
+  state_ = TrackingState::kNotInitialized;
+  newest_loaded_.reset();
+  sightings_.clear();
+  num_frames_lost_ = num_good_frames_lost_ = 0;
+}
+
 Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper) {
   SEMSLAM_CHECK(frame != nullptr);
-  if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
+  if (state_ == TrackingState::kNotInitialized) return WithSight(Initialize(frame), frame);
   const Stopwatch stopwatch;
   first_pose_seconds_ = local_map_seconds_ = 0;
-  Result result = TrackInMap(std::move(frame), mapper);
+  Result result = TrackInMap(frame, mapper);
   result.first_pose_seconds = first_pose_seconds_;
   result.local_map_seconds = local_map_seconds_;
   result.keyframe_seconds = stopwatch.Seconds() - first_pose_seconds_ - local_map_seconds_;
+  return WithSight(std::move(result), std::move(frame));
+}
+
+// Tells what the frame shows, for those who watch.
+Tracking::Result Tracking::WithSight(Result result, std::shared_ptr<const Frame> frame) const {
+  result.frame = std::move(frame);
+  if (result.state != TrackingState::kTracking) return result;
+  result.shows_landmark.reserve(last_.points.size());
+  for (const std::optional<TrackedPoint>& point : last_.points)
+    result.shows_landmark.push_back(point && point->landmark);
   return result;
 }
 
@@ -130,7 +149,7 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
-  if (options_.localization_only || !CanStartFrom(*frame)) return {};
+  if (localization_only_ || !CanStartFrom(*frame)) return {};
   return StartPiece(std::move(frame), Rigid3());
 }
 

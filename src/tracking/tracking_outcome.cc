@@ -43,9 +43,9 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
 
   Result result;
   last_reference_ = local_map_.reference_keyframe();
-  if (options_.localization_only) sightings_.clear();
-  if (!options_.localization_only && keyframe_policy_.WantsKeyframe(Assess(
-                                         current, located.num_inliers, last_reference_, mapper))) {
+  if (localization_only_) sightings_.clear();
+  if (!localization_only_ && keyframe_policy_.WantsKeyframe(
+                                 Assess(current, located.num_inliers, last_reference_, mapper))) {
     last_reference_ = InsertKeyframe(&current);
     T_reference_last_ = Rigid3();
     result.new_keyframe = last_reference_;
@@ -150,12 +150,12 @@ Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   state_ = TrackingState::kLost;
   ++num_frames_lost_;
   num_good_frames_lost_ = CanStartFrom(*frame) ? num_good_frames_lost_ + 1 : 0;
-  if (num_frames_lost_ >= num_frames_tracked_ && !IsWorthKeeping()) {
-    return StartOver(std::move(frame));
+  if (num_frames_lost_ >= num_frames_tracked_ && !localization_only_ && !IsWorthKeeping()) {
+    return DropPiece(std::move(frame));
   }
   Result result;
   result.state = state_;
-  if (options_.localization_only || num_good_frames_lost_ < options_.max_frames_lost) return result;
+  if (localization_only_ || num_good_frames_lost_ < options_.max_frames_lost) return result;
   result = StartPiece(std::move(frame), last_.T_world_camera);
   result.piece_was_started = true;
   return result;
@@ -172,7 +172,7 @@ bool Tracking::IsWorthKeeping() const {
 }
 
 // More was lost than was mapped: a fresh start is better; this frame may serve as the first.
-Tracking::Result Tracking::StartOver(std::shared_ptr<const Frame> frame) {
+Tracking::Result Tracking::DropPiece(std::shared_ptr<const Frame> frame) {
   const bool is_empty = map_.Write([&](Map& map) {
     const std::optional<KeyframeId> piece = map.PieceOf(last_reference_);
     if (piece && map.pieces().size() > 1) {

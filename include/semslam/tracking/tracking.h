@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "semslam/camera/pinhole_camera.h"
 #include "semslam/map/map.h"
@@ -69,9 +70,11 @@ class Tracking {
     bool piece_was_started = false;  // With this frame, for want of a known place. Its poses are in
                                      // a frame of their own until it is joined.
     bool was_skipped = false;        // Not newer than the frame before: nothing was done with it.
-    double first_pose_seconds = 0;   // Spent on a pose from the last frame or a keyframe,
-    double local_map_seconds = 0;    // on the local map,
-    double keyframe_seconds = 0;     // and on what follows.
+    std::shared_ptr<const Frame> frame;  // What was seen; null if it was skipped.
+    std::vector<bool> shows_landmark;    // One a feature of `frame` while tracking, else empty.
+    double first_pose_seconds = 0;       // Spent on a pose from the last frame or a keyframe,
+    double local_map_seconds = 0;        // on the local map,
+    double keyframe_seconds = 0;         // and on what follows.
   };
 
   Tracking(const Options& options,
@@ -88,6 +91,11 @@ class Tracking {
   // up. Before the first frame; without keyframes in the map nothing changes.
   void StartInLoadedMap();
 
+  // Forgets all: the map is cleared, and the next frame may be the first.
+  void StartOver();
+  // From the next frame on: only find the camera, and leave the map as it is; or map again.
+  void SetLocalizationOnly(bool localization_only) { localization_only_ = localization_only; }
+
   TrackingState state() const { return state_; }
 
  private:
@@ -101,6 +109,7 @@ class Tracking {
   Result Initialize(std::shared_ptr<const Frame> frame);
   bool CanStartFrom(const Frame& frame) const;
   Result StartPiece(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera);
+  Result WithSight(Result result, std::shared_ptr<const Frame> frame) const;
   Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
   void BringLastFrameUpToDate();
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
@@ -112,7 +121,7 @@ class Tracking {
   int TrackLocalMap(TrackedFrame* current);
   Result Succeed(Located located, const MapperLoad& mapper);
   Result Fail(std::shared_ptr<const Frame> frame);
-  Result StartOver(std::shared_ptr<const Frame> frame);
+  Result DropPiece(std::shared_ptr<const Frame> frame);
   bool IsWorthKeeping() const;
   KeyframePolicy::Situation Assess(const TrackedFrame& current,
                                    int num_inliers,
@@ -131,6 +140,7 @@ class Tracking {
   const FrameLocator locator_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
+  bool localization_only_ = false;
   std::optional<KeyframeId> newest_loaded_;  // Of a map that was filled from elsewhere.
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;
