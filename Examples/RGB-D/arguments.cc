@@ -99,6 +99,10 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
   CLI::Option* sequential = app.add_flag("--sequential", arguments.sequential,
                                          "Everything in one thread: two runs write the same bytes");
   app.add_flag("--realtime", arguments.realtime, realtime)->excludes(sequential);
+  app.add_flag("--viewer", arguments.viewer,
+               "Show the run in a window; closing it does not end the run");
+  app.add_flag("--viewer-stays", arguments.viewer_stays,
+               "The same, and keep the window after the run until it is closed");
 }
 
 namespace {

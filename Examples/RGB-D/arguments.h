@@ -33,6 +33,8 @@ struct MappingArguments {
   bool drop_late = false;
   bool sequential = false;
   bool realtime = false;
+  bool viewer = false;        // A window while it runs,
+  bool viewer_stays = false;  // and afterwards, until it is closed.
 };
 
 // An application with --help and --version in this project's form.

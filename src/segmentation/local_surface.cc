@@ -11,6 +11,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "semslam/base/parallel.h"
+
 #include "segmentation/disjoint_sets.h"
 
 namespace semslam {
@@ -133,6 +135,22 @@ Plane FitLocally(const PatchGraph& graph,
   return {normal, -normal.dot(foot)};
 }
 
+// The piece a patch belongs to, then those it touches, each once.
+std::vector<std::uint32_t> PiecesAt(std::uint32_t patch,
+                                    const SurfacePieces& pieces,
+                                    const Adjacency& neighbours) {
+  const std::uint32_t own = pieces.piece_of_patch[patch];
+  std::vector<std::uint32_t> touched;
+  for (const std::uint32_t other : neighbours[patch]) {
+    const std::uint32_t piece = pieces.piece_of_patch[other];
+    if (piece != kNoPiece && piece != own) touched.push_back(piece);
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  if (own != kNoPiece) touched.insert(touched.begin(), own);
+  return touched;
+}
+
 }  // namespace
 
 SurfacePieces FindStructuralPieces(const PatchGraph& graph,
@@ -167,27 +185,23 @@ SurfacePieces FindStructuralPieces(const PatchGraph& graph,
 
 std::vector<std::vector<LocalSurface>> FindLocalSurfaces(const PatchGraph& graph,
                                                          const SurfacePieces& pieces,
-                                                         const ReliefOptions& options) {
+                                                         const ReliefOptions& options,
+                                                         int num_threads) {
+  constexpr std::size_t kGrain = 512;  // Each chunk searches with scratch memory of its own.
   const Adjacency neighbours = NeighboursOf(graph);
-  NearPatches near_patches(graph, pieces, neighbours);
   std::vector<std::vector<LocalSurface>> surfaces(graph.patches.size());
-  for (std::uint32_t i = 0; i < graph.patches.size(); ++i) {
-    std::vector<std::uint32_t> touched;
-    for (const std::uint32_t other : neighbours[i]) {
-      touched.push_back(pieces.piece_of_patch[other]);
+  ParallelFor(surfaces.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    NearPatches near_patches(graph, pieces, neighbours);
+    for (std::size_t i = first; i < last; ++i) {
+      const auto patch = static_cast<std::uint32_t>(i);
+      for (const std::uint32_t piece : PiecesAt(patch, pieces, neighbours)) {
+        const auto near = near_patches.Find(patch, piece, options.reference_radius);
+        surfaces[i].push_back(
+            {piece, FitLocally(graph, pieces.pieces[piece].plane, graph.patches[i].centroid, near,
+                               options.min_height)});
+      }
     }
-    std::sort(touched.begin(), touched.end());
-    touched.insert(touched.begin(), pieces.piece_of_patch[i]);
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-      const std::uint32_t piece = touched[k];
-      const bool is_known = k > 0 && (piece == touched[k - 1] || piece == touched[0]);
-      if (piece == kNoPiece || is_known) continue;
-      const auto near = near_patches.Find(i, piece, options.reference_radius);
-      surfaces[i].push_back(
-          {piece, FitLocally(graph, pieces.pieces[piece].plane, graph.patches[i].centroid, near,
-                             options.min_height)});
-    }
-  }
+  });
   return surfaces;
 }
 

@@ -44,6 +44,7 @@ struct LocalSurface {
 // half.
 std::vector<std::vector<LocalSurface>> FindLocalSurfaces(const PatchGraph& graph,
                                                          const SurfacePieces& pieces,
-                                                         const ReliefOptions& options);
+                                                         const ReliefOptions& options,
+                                                         int num_threads);
 
 }  // namespace semslam

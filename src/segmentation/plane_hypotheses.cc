@@ -16,6 +16,7 @@
 #include "semslam/base/parallel.h"
 #include "semslam/base/random.h"
 
+#include "segmentation/patch_table.h"
 #include "segmentation/plane_scores.h"
 
 namespace semslam {
@@ -120,25 +121,46 @@ std::vector<Plane> KeepNovel(const std::vector<Patch>& patches,
                              const std::vector<Plane>& planes,
                              const PlaneHypothesisOptions& options) {
   const double max_cost = 20 * options.tolerance;
+  const PatchTable table(patches);
   std::vector<double> best(patches.size(), 0.0);
   std::vector<std::pair<std::size_t, double>> support;
   std::vector<Plane> kept;
   for (const Plane& plane : planes) {
     support.clear();
     double novel_area = 0;
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      if (std::abs(plane.SignedDistance(patches[i].centroid)) > max_cost) continue;
+    table.Visit(plane, {max_cost, options.min_normal_cosine}, [&](std::size_t i) {
       const double cost = PatchCost(patches[i], plane, options.min_normal_cosine);
       const double weight = std::exp(-cost / (2 * options.tolerance));
-      if (weight <= best[i]) continue;
+      if (weight <= best[i]) return;
       support.emplace_back(i, weight);
       novel_area += patches[i].area * (weight - best[i]);
-    }
+    });
     if (novel_area < options.min_area) continue;
     for (const auto& [i, weight] : support) best[i] = weight;
     kept.push_back(plane);
   }
   return kept;
+}
+
+// Least-squares plane of the patches within the tolerance of `plane`, twice; `plane` itself where
+// they leave it open.
+Plane RefitPlane(const std::vector<Patch>& patches,
+                 const PatchTable& table,
+                 Plane plane,
+                 const PlaneHypothesisOptions& options) {
+  for (int iteration = 0; iteration < 2; ++iteration) {
+    PointMoments moments;
+    table.Visit(plane, {options.tolerance, options.min_normal_cosine}, [&](std::size_t i) {
+      const Patch& patch = patches[i];
+      if (std::abs(plane.SignedDistance(patch.centroid)) > options.tolerance) return;
+      if (std::abs(plane.normal.dot(patch.normal)) < options.min_normal_cosine) return;
+      moments += patch.moments;
+    });
+    const std::optional<PlaneFit> fit = FitPlane(moments);
+    if (!fit) break;
+    plane = fit->plane.normal.dot(plane.normal) < 0 ? fit->plane.Flipped() : fit->plane;
+  }
+  return plane;
 }
 
 }  // namespace
@@ -163,23 +185,6 @@ std::vector<std::size_t> BestOfCells(const std::vector<Plane>& planes,
   return best;
 }
 
-Plane RefitPlane(const std::vector<Patch>& patches,
-                 Plane plane,
-                 const PlaneHypothesisOptions& options) {
-  for (int iteration = 0; iteration < 2; ++iteration) {
-    PointMoments moments;
-    for (const Patch& patch : patches) {
-      if (std::abs(plane.SignedDistance(patch.centroid)) > options.tolerance) continue;
-      if (std::abs(plane.normal.dot(patch.normal)) < options.min_normal_cosine) continue;
-      moments += patch.moments;
-    }
-    const std::optional<PlaneFit> fit = FitPlane(moments);
-    if (!fit) break;
-    plane = fit->plane.normal.dot(plane.normal) < 0 ? fit->plane.Flipped() : fit->plane;
-  }
-  return plane;
-}
-
 std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads) {
@@ -192,9 +197,10 @@ std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
   AddRandomPlanes(patches, options, planes);
   planes = Merge(patches, planes, options, num_threads);
   if (planes.size() > options.max_planes) planes.resize(options.max_planes);
+  const PatchTable table(patches);
   ParallelFor(planes.size(), 8, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      planes[i] = RefitPlane(patches, planes[i], options);
+      planes[i] = RefitPlane(patches, table, planes[i], options);
     }
   });
   return KeepNovel(patches, Merge(patches, planes, options, num_threads), options);

@@ -19,12 +19,6 @@ std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads);
 
-// Least-squares plane of the patches within the tolerance of `plane`, twice; `plane` itself where
-// they leave it open.
-Plane RefitPlane(const std::vector<Patch>& patches,
-                 Plane plane,
-                 const PlaneHypothesisOptions& options);
-
 // Indices of the planes that are the best supported of their cell. Cells are evenly fine over all
 // directions and the same for a plane and its opposite; offsets are taken at `reference`.
 std::vector<std::size_t> BestOfCells(const std::vector<Plane>& planes,

@@ -7,10 +7,11 @@
 
 #include "semslam/base/parallel.h"
 
+#include "segmentation/patch_table.h"
+
 namespace semslam {
 namespace {
 
-constexpr double kWrongNormalFactor = 100.0;
 constexpr double kSupportScale = 10.0;  // D = -S / (kSupportScale * A_min).
 // A little more than the double count, so that a plane without support of its own loses.
 constexpr double kOverlapFactor = 1.05;
@@ -25,26 +26,21 @@ double AngleTerm(const Plane& a, const Plane& b) {
 
 }  // namespace
 
-double PatchCost(const Patch& patch, const Plane& plane, double min_normal_cosine) {
-  const double distance = std::abs(plane.SignedDistance(patch.centroid));
-  const bool agrees = std::abs(plane.normal.dot(patch.normal)) >= min_normal_cosine;
-  return agrees ? distance : kWrongNormalFactor * distance;
-}
-
 std::vector<double> SoftSupports(const std::vector<Patch>& patches,
                                  std::span<const Plane> planes,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads) {
   // Weights below exp(-10) are not worth an exponential.
   const double max_cost = 20 * options.tolerance;
+  const PatchTable table(patches);
   std::vector<double> supports(planes.size(), 0.0);
   ParallelFor(planes.size(), 16, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t m = first; m < last; ++m) {
-      for (const Patch& patch : patches) {
-        if (std::abs(planes[m].SignedDistance(patch.centroid)) > max_cost) continue;
-        const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
-        if (cost <= max_cost) supports[m] += patch.area * SoftWeight(cost, options.tolerance);
-      }
+      table.Visit(planes[m], {max_cost, options.min_normal_cosine}, [&](std::size_t i) {
+        const double cost = PatchCost(patches[i], planes[m], options.min_normal_cosine);
+        if (cost > max_cost) return;
+        supports[m] += patches[i].area * SoftWeight(cost, options.tolerance);
+      });
     }
   });
   return supports;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,7 +19,12 @@ namespace semslam {
 
 // Cost of plane m for patch i (Pham et al., IROS 2016):
 //   k_im = |n_m . c_i + d_m|, times 100 if |n_i . n_m| is below the least cosine, in metres.
-double PatchCost(const Patch& patch, const Plane& plane, double min_normal_cosine);
+inline double PatchCost(const Patch& patch, const Plane& plane, double min_normal_cosine) {
+  constexpr double kWrongNormalFactor = 100.0;
+  const double distance = std::abs(plane.SignedDistance(patch.centroid));
+  const bool agrees = std::abs(plane.normal.dot(patch.normal)) >= min_normal_cosine;
+  return agrees ? distance : kWrongNormalFactor * distance;
+}
 
 // Soft support S_m = sum_i a_i exp(-k_im / (2 tau)) of each plane, square metres.
 std::vector<double> SoftSupports(const std::vector<Patch>& patches,

@@ -2,27 +2,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "segmentation/radix_sort.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace semslam {
+#include "semslam/base/parallel.h"
 
-void RadixSort(std::vector<KeyedIndex>& items, int num_bits) {
-  constexpr int kDigitBits = 11;
-  constexpr std::size_t kNumDigits = std::size_t{1} << kDigitBits;
-  std::vector<KeyedIndex> sorted(items.size());
-  for (int shift = 0; shift < num_bits; shift += kDigitBits) {
-    std::array<std::size_t, kNumDigits> begin{};
-    for (const KeyedIndex& item : items) ++begin[(item.key >> shift) & (kNumDigits - 1)];
-    std::size_t sum = 0;
-    for (std::size_t& entry : begin) {
-      const std::size_t count = entry;
-      entry = sum;
+namespace semslam {
+namespace {
+
+constexpr int kMaxDigitBits = 11;
+constexpr std::size_t kNumChunks = 8;
+
+// Where the items of each digit go, for each chunk of the items on its own.
+using Places = std::array<std::uint32_t, std::size_t{1} << kMaxDigitBits>;
+
+// One pass: orders the items by one digit of their keys, equal ones as they were.
+void SortByDigit(const std::vector<KeyedIndex>& items,
+                 int shift,
+                 std::uint64_t mask,
+                 int num_threads,
+                 std::vector<Places>& places,
+                 std::vector<KeyedIndex>& sorted) {
+  const auto for_chunks = [&](const auto& body) {
+    ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t chunk = begin; chunk < end; ++chunk) {
+        const std::size_t first = items.size() * chunk / kNumChunks;
+        const std::size_t last = items.size() * (chunk + 1) / kNumChunks;
+        for (std::size_t i = first; i < last; ++i) {
+          body(items[i], places[chunk][items[i].key >> shift & mask]);
+        }
+      }
+    });
+  };
+  for (Places& chunk : places) chunk.fill(0);
+  for_chunks([](const KeyedIndex&, std::uint32_t& count) { ++count; });
+  std::uint32_t sum = 0;
+  for (std::size_t digit = 0; digit <= mask; ++digit) {
+    for (Places& chunk : places) {
+      const std::uint32_t count = chunk[digit];
+      chunk[digit] = sum;
       sum += count;
     }
-    for (const KeyedIndex& item : items) {
-      sorted[begin[(item.key >> shift) & (kNumDigits - 1)]++] = item;
-    }
+  }
+  for_chunks([&](const KeyedIndex& item, std::uint32_t& place) { sorted[place++] = item; });
+}
+
+}  // namespace
+
+void RadixSort(std::vector<KeyedIndex>& items, int num_bits, int num_threads) {
+  const int num_passes = (num_bits + kMaxDigitBits - 1) / kMaxDigitBits;
+  if (num_passes == 0 || items.empty()) return;
+  const int digit_bits = (num_bits + num_passes - 1) / num_passes;
+  const std::uint64_t mask = (std::uint64_t{1} << digit_bits) - 1;
+  std::vector<KeyedIndex> sorted(items.size());
+  std::vector<Places> places(kNumChunks);
+  for (int pass = 0; pass < num_passes; ++pass) {
+    SortByDigit(items, pass * digit_bits, mask, num_threads, places, sorted);
     items.swap(sorted);
   }
 }

@@ -13,6 +13,6 @@ struct KeyedIndex {
 };
 
 // Sorts by key; equal keys keep their order. `num_bits`: no key has a bit set from there on.
-void RadixSort(std::vector<KeyedIndex>& items, int num_bits);
+void RadixSort(std::vector<KeyedIndex>& items, int num_bits, int num_threads);
 
 }  // namespace semslam

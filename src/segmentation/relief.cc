@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "semslam/base/parallel.h"
+
 #include "segmentation/local_surface.h"
 
 namespace semslam {
@@ -22,16 +24,24 @@ class ReliefCut {
             const Supervoxels& supervoxels,
             const PatchGraph& graph,
             const SurfacePieces& pieces,
-            const ReliefOptions& options)
+            const ReliefOptions& options,
+            int num_threads)
       : grid_(grid),
         old_patch_(supervoxels.patch_of_voxel),
         patch_(supervoxels.patch_of_voxel),
         num_patches_(supervoxels.num_patches),
         pieces_(pieces),
         options_(options),
-        surfaces_(FindLocalSurfaces(graph, pieces, options)),
+        surfaces_(FindLocalSurfaces(graph, pieces, options, num_threads)),
+        num_threads_(num_threads),
+        home_piece_(grid.size(), kNoPiece),
         home_height_(grid.size(), 0.0F),
-        is_raised_(grid.size(), false) {}
+        is_raised_(grid.size(), 0) {
+    for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
+      const std::uint32_t patch = old_patch_[voxel];
+      if (patch != kNoPatch) home_piece_[voxel] = pieces.piece_of_patch[patch];
+    }
+  }
 
   Supervoxels Run() {
     MeasureHomeHeights();
@@ -44,9 +54,21 @@ class ReliefCut {
   }
 
  private:
-  std::uint32_t HomePiece(std::uint32_t voxel) const {
-    const std::uint32_t patch = old_patch_[voxel];
-    return patch == kNoPatch ? kNoPiece : pieces_.piece_of_patch[patch];
+  // Calls body(voxel) for all voxels, side by side.
+  template <typename Body>
+  void ForVoxels(const Body& body) const {
+    constexpr std::size_t kGrain = 16384;
+    ParallelFor(grid_.size(), kGrain, num_threads_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t voxel = first; voxel < last; ++voxel) {
+        body(static_cast<std::uint32_t>(voxel));
+      }
+    });
+  }
+
+  // The piece that the voxel's patch belongs to.
+  std::uint32_t HomePiece(std::uint32_t voxel) const { return home_piece_[voxel]; }
+  bool IsFlat(std::uint32_t voxel) const {
+    return home_piece_[voxel] != kNoPiece && is_raised_[voxel] == 0;
   }
 
   std::optional<double> HeightOver(std::uint32_t piece, std::uint32_t voxel) const {
@@ -60,11 +82,11 @@ class ReliefCut {
   }
 
   void MeasureHomeHeights() {
-    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+    ForVoxels([&](std::uint32_t voxel) {
       const std::uint32_t piece = HomePiece(voxel);
-      if (piece == kNoPiece) continue;
+      if (piece == kNoPiece) return;
       home_height_[voxel] = static_cast<float>(HeightOver(piece, voxel).value_or(0));
-    }
+    });
   }
 
   // Of each piece from its own noise: by the median, which things on it do not touch.
@@ -86,9 +108,9 @@ class ReliefCut {
 
   // Not only the voxel itself, but also the mean around it: single voxels are noise.
   void FindRaised() {
-    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+    ForVoxels([&](std::uint32_t voxel) {
       const std::uint32_t piece = HomePiece(voxel);
-      if (piece == kNoPiece || home_height_[voxel] <= thresholds_[piece]) continue;
+      if (piece == kNoPiece || home_height_[voxel] <= thresholds_[piece]) return;
       float sum = home_height_[voxel];
       float count = 1;
       for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
@@ -96,8 +118,8 @@ class ReliefCut {
         sum += home_height_[other];
         count += 1;
       }
-      is_raised_[voxel] = sum > 0.5 * thresholds_[piece] * count;
-    }
+      is_raised_[voxel] = sum > 0.5 * thresholds_[piece] * count ? 1 : 0;
+    });
   }
 
   // The raised voxels connected with one, of the same patch if asked. Marks them as visited.
@@ -108,7 +130,7 @@ class ReliefCut {
     is_visited[first] = true;
     for (std::size_t i = 0; i < region.size(); ++i) {
       for (const std::uint32_t other : grid_.NeighboursOf(region[i])) {
-        if (!is_raised_[other] || is_visited[other]) continue;
+        if (is_raised_[other] == 0 || is_visited[other]) continue;
         if (within_patch && old_patch_[other] != old_patch_[first]) continue;
         is_visited[other] = true;
         region.push_back(other);
@@ -122,7 +144,7 @@ class ReliefCut {
     const double min_voxels = options_.min_area / (grid_.voxel_size * grid_.voxel_size);
     std::vector<bool> is_visited(grid_.size(), false);
     for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
-      if (!is_raised_[voxel] || is_visited[voxel]) continue;
+      if (is_raised_[voxel] == 0 || is_visited[voxel]) continue;
       const auto region = CollectRaised(voxel, false, is_visited);
       if (static_cast<double>(region.size()) >= min_voxels) continue;
       const bool touches_thing =
@@ -133,26 +155,34 @@ class ReliefCut {
             });
           });
       if (touches_thing) continue;
-      for (const std::uint32_t member : region) is_raised_[member] = false;
+      for (const std::uint32_t member : region) is_raised_[member] = 0;
     }
   }
 
   // From the flat voxels of each piece over what of other patches is as low as they are.
   void TakeFlush() {
     std::vector<std::uint32_t> queue;
+    std::vector<std::uint8_t> is_flat(grid_.size());
+    ForVoxels([&](std::uint32_t voxel) { is_flat[voxel] = IsFlat(voxel) ? 1 : 0; });
+    std::vector<std::uint8_t> is_border(grid_.size());
+    ForVoxels([&](std::uint32_t voxel) {
+      if (is_flat[voxel] == 0) return;
+      const auto neighbours = grid_.NeighboursOf(voxel);
+      is_border[voxel] = std::any_of(neighbours.begin(), neighbours.end(),
+                                     [&](std::uint32_t other) { return is_flat[other] == 0; });
+    });
     for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
-      if (HomePiece(voxel) != kNoPiece && !is_raised_[voxel]) queue.push_back(voxel);
+      if (is_border[voxel] != 0) queue.push_back(voxel);
     }
-    std::vector<bool> is_taken(grid_.size(), false);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::uint32_t voxel = queue[i];
       const std::uint32_t piece = pieces_.piece_of_patch[patch_[voxel]];
       for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
-        if (is_taken[other] || (HomePiece(other) != kNoPiece && !is_raised_[other])) continue;
+        if (is_flat[other] != 0) continue;
         const std::optional<double> height = HeightOver(piece, other);
         if (!height || std::abs(*height) > 0.5 * thresholds_[piece]) continue;
-        is_taken[other] = true;
-        is_raised_[other] = false;
+        is_flat[other] = 1;
+        is_raised_[other] = 0;
         patch_[other] = patch_[voxel];
         queue.push_back(other);
       }
@@ -166,7 +196,7 @@ class ReliefCut {
     for (const std::uint32_t voxel : region) {
       for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
         const std::uint32_t patch = patch_[other];
-        if (patch == kNoPatch || is_raised_[other]) continue;
+        if (patch == kNoPatch || is_raised_[other] != 0) continue;
         const bool is_cut = patch >= pieces_.piece_of_patch.size();
         if (is_cut || pieces_.piece_of_patch[patch] != piece) ++contacts[patch];
       }
@@ -182,7 +212,7 @@ class ReliefCut {
     std::vector<bool> is_visited(grid_.size(), false);
     std::vector<std::vector<std::uint32_t>> small;
     for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
-      if (!is_raised_[voxel] || is_visited[voxel]) continue;
+      if (is_raised_[voxel] == 0 || is_visited[voxel]) continue;
       std::vector<std::uint32_t> region = CollectRaised(voxel, true, is_visited);
       if (region.size() < kMinPatchVoxels) {
         small.push_back(std::move(region));
@@ -190,7 +220,7 @@ class ReliefCut {
       }
       for (const std::uint32_t member : region) {
         patch_[member] = num_patches_;
-        is_raised_[member] = false;
+        is_raised_[member] = 0;
       }
       ++num_patches_;
     }
@@ -198,7 +228,7 @@ class ReliefCut {
       const std::uint32_t neighbour = NeighbourOf(region);
       for (const std::uint32_t member : region) {
         if (neighbour != kNoPatch) patch_[member] = neighbour;
-        is_raised_[member] = false;
+        is_raised_[member] = 0;
       }
     }
   }
@@ -210,9 +240,12 @@ class ReliefCut {
   const SurfacePieces& pieces_;
   const ReliefOptions& options_;
   std::vector<std::vector<LocalSurface>> surfaces_;
-  std::vector<float> home_height_;  // Over the piece that the voxel's patch belongs to.
+  int num_threads_;
+  std::vector<std::uint32_t> home_piece_;
+  std::vector<float> home_height_;  // Over the home piece.
   std::vector<double> thresholds_;  // By piece.
-  std::vector<bool> is_raised_;
+  // Not of bool: several threads write.
+  std::vector<std::uint8_t> is_raised_;
 };
 
 // Renumbers the patches that have voxels left.
@@ -245,10 +278,11 @@ CutPatches CutAtRelief(const VoxelGrid& grid,
                        const std::vector<Plane>& planes,
                        const std::vector<std::uint32_t>& plane_labels,
                        double min_structural_area,
-                       const ReliefOptions& options) {
+                       const ReliefOptions& options,
+                       int num_threads) {
   const SurfacePieces pieces =
       FindStructuralPieces(graph, planes, plane_labels, min_structural_area);
-  ReliefCut cut(grid, supervoxels, graph, pieces, options);
+  ReliefCut cut(grid, supervoxels, graph, pieces, options, num_threads);
   return Compact(cut.Run(), plane_labels);
 }
 

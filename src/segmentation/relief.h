@@ -30,6 +30,7 @@ CutPatches CutAtRelief(const VoxelGrid& grid,
                        const std::vector<Plane>& planes,
                        const std::vector<std::uint32_t>& plane_labels,
                        double min_structural_area,
-                       const ReliefOptions& options);
+                       const ReliefOptions& options,
+                       int num_threads);
 
 }  // namespace semslam

@@ -61,7 +61,7 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   result.times.voxels = Lap(watch);
   const std::vector<Eigen::Vector3f> normals = ComputeVoxelNormals(grid, num_threads);
   result.times.normals = Lap(watch);
-  Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels);
+  Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels, num_threads);
   result.times.supervoxels = Lap(watch);
   PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.patches = Lap(watch);
@@ -76,8 +76,9 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
       AssignPlanes(graph, planes, options_.planes, options_.assignment);
   plane_labels = GrowSurfaces(graph, planes, std::move(plane_labels), options_.components);
   result.times.assignment = Lap(watch);
-  CutPatches cut = CutAtRelief(grid, supervoxels, graph, planes, plane_labels,
-                               options_.components.min_structural_area, options_.relief);
+  CutPatches cut =
+      CutAtRelief(grid, supervoxels, graph, planes, plane_labels,
+                  options_.components.min_structural_area, options_.relief, num_threads);
   supervoxels = std::move(cut.supervoxels);
   plane_labels = std::move(cut.plane_labels);
   graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);

@@ -4,253 +4,307 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
 
-#include "segmentation/radix_sort.h"
+#include "semslam/base/parallel.h"
+
+#include "segmentation/disjoint_sets.h"
+#include "segmentation/lanes.h"
+#include "segmentation/seed_cells.h"
 
 namespace semslam {
 namespace {
 
-// First come, first served among equal distances; the distances are rounded to buckets. Two levels
-// of bits tell which buckets hold something, so that both ends of the queue are reached in constant
-// time.
-class BucketQueue {
- public:
-  struct Entry {
-    std::uint32_t voxel = 0;
-    std::uint32_t patch = 0;
-  };
+constexpr std::size_t kGrain = 8192;
 
-  BucketQueue() : buckets_(kNumBuckets) {}
-
-  void Push(float distance, Entry entry) {
-    const auto bucket = static_cast<std::size_t>(
-        std::min(distance * kBucketsPerUnit, static_cast<float>(kNumBuckets - 1)));
-    buckets_[bucket].entries.push_back(entry);
-    words_[bucket / kWordBits] |= std::uint64_t{1} << (bucket % kWordBits);
-    summary_ |= std::uint64_t{1} << (bucket / kWordBits);
-  }
-
-  bool empty() const { return summary_ == 0; }
-
-  Entry Pop() {
-    const auto word = static_cast<std::size_t>(std::countr_zero(summary_));
-    const auto bit = static_cast<std::size_t>(std::countr_zero(words_[word]));
-    Bucket& bucket = buckets_[word * kWordBits + bit];
-    const Entry entry = bucket.entries[bucket.next++];
-    if (bucket.next == bucket.entries.size()) {
-      bucket.entries.clear();
-      bucket.next = 0;
-      words_[word] &= ~(std::uint64_t{1} << bit);
-      if (words_[word] == 0) summary_ &= ~(std::uint64_t{1} << word);
-    }
-    return entry;
-  }
-
- private:
-  struct Bucket {
-    std::vector<Entry> entries;
-    std::size_t next = 0;
-  };
-  static constexpr std::size_t kWordBits = 64;
-  static constexpr std::size_t kNumBuckets = kWordBits * kWordBits;
-  static constexpr float kBucketsPerUnit = 1024;
-
-  std::vector<Bucket> buckets_;
-  std::array<std::uint64_t, kWordBits> words_{};
-  std::uint64_t summary_ = 0;
-};
-
-// Where a patch begins.
+// What a patch is to the voxels around it.
 struct Centre {
-  std::uint32_t start = 0;  // A voxel.
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
 };
 
-// Per occupied cell of the seed grid the voxel nearest to the mean of the cell's voxels.
-std::vector<Centre> PlaceSeeds(const VoxelGrid& grid, double seed_spacing) {
-  const float scale = static_cast<float>(1.0 / seed_spacing);
-  Eigen::Vector3f high = Eigen::Vector3f::Zero();
-  for (const Eigen::Vector3f& centroid : grid.centroids) high = high.cwiseMax(centroid);
-  const auto num_bits = static_cast<int>(
-      std::bit_width(static_cast<std::uint64_t>(high.maxCoeff() * scale)));  // Of each axis.
-  std::vector<KeyedIndex> items(grid.size());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Eigen::Vector3f position = grid.centroids[i].cwiseMax(0.0F) * scale;
-    const auto x = static_cast<std::uint64_t>(position.x());
-    const auto y = static_cast<std::uint64_t>(position.y());
-    const auto z = static_cast<std::uint64_t>(position.z());
-    items[i] = {z << (2 * num_bits) | y << num_bits | x, static_cast<std::uint32_t>(i)};
-  }
-  RadixSort(items, 3 * num_bits);
-
-  std::vector<Centre> seeds;
-  for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (; end < items.size() && items[end].key == items[begin].key; ++end) {
-      sum += grid.centroids[items[end].index];
-    }
-    const Eigen::Vector3f mean = sum / static_cast<float>(end - begin);
-    const auto nearest = std::min_element(items.begin() + static_cast<std::ptrdiff_t>(begin),
-                                          items.begin() + static_cast<std::ptrdiff_t>(end),
-                                          [&](const KeyedIndex& a, const KeyedIndex& b) {
-                                            return (grid.centroids[a.index] - mean).squaredNorm() <
-                                                   (grid.centroids[b.index] - mean).squaredNorm();
-                                          });
-    seeds.push_back({nearest->index, grid.centroids[nearest->index]});
-  }
-  return seeds;
-}
-
-class Growth {
+// Distance of a voxel from a patch.
+class PatchDistance {
  public:
-  Growth(const VoxelGrid& grid,
-         const std::vector<Eigen::Vector3f>& normals,
-         const SupervoxelOptions& options)
-      : grid_(grid),
-        spatial_factor_(static_cast<float>(options.spatial_weight / options.seed_spacing)),
+  explicit PatchDistance(const SupervoxelOptions& options)
+      : spatial_factor_(static_cast<float>(options.spatial_weight / options.seed_spacing)),
         normal_factor_(static_cast<float>(options.normal_weight)),
         offset_factor_(static_cast<float>(options.offset_weight / options.seed_spacing)),
-        offset_tolerance_(static_cast<float>(options.offset_tolerance)),
-        voxels_(grid.size()) {
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      voxels_[i].position = grid.centroids[i];
-      voxels_[i].normal = normals[i];
-    }
+        offset_tolerance_(static_cast<float>(options.offset_tolerance)) {}
+
+  float operator()(const Centre& centre,
+                   const Eigen::Vector3f& position,
+                   const Eigen::Vector3f& normal) const {
+    const Eigen::Vector3f away = position - centre.position;
+    const float offset = std::max(std::abs(centre.normal.dot(away)) - offset_tolerance_, 0.0F);
+    return spatial_factor_ * away.norm() + normal_factor_ * (1 - normal.dot(centre.normal)) +
+           offset_factor_ * offset;
   }
 
-  std::vector<std::uint32_t> Run(const std::vector<Centre>& centres) {
-    for (Voxel& voxel : voxels_) {
-      voxel.best_offer = std::numeric_limits<float>::max();
-      voxel.patch = kNoPatch;
-    }
-    BucketQueue queue;
-    std::vector<GrowingPatch> patches(centres.size());
-    for (std::uint32_t i = 0; i < centres.size(); ++i) {
-      patches[i].base = centres[i].position;
-      voxels_[centres[i].start].best_offer = 0;
-      queue.Push(0, {centres[i].start, i});
-    }
-    while (!queue.empty()) {
-      const BucketQueue::Entry entry = queue.Pop();
-      Voxel& voxel = voxels_[entry.voxel];
-      if (voxel.patch != kNoPatch) continue;
-      voxel.patch = entry.patch;
-      patches[entry.patch].Add(voxel.position, voxel.normal);
-      OfferToNeighbours(entry, patches[entry.patch], queue);
-    }
-    std::vector<std::uint32_t> patch_of_voxel(voxels_.size());
-    for (std::size_t i = 0; i < voxels_.size(); ++i) patch_of_voxel[i] = voxels_[i].patch;
-    return patch_of_voxel;
+  // Of four patches.
+  __m128 operator()(const FourPoints& centres,
+                    const Eigen::Vector3f& position,
+                    const Eigen::Vector3f& normal) const {
+    const auto load = [](const std::array<float, 4>& row) { return _mm_load_ps(row.data()); };
+    const __m128 x = _mm_sub_ps(_mm_set1_ps(position.x()), load(centres.x));
+    const __m128 y = _mm_sub_ps(_mm_set1_ps(position.y()), load(centres.y));
+    const __m128 z = _mm_sub_ps(_mm_set1_ps(position.z()), load(centres.z));
+    const __m128 nx = load(centres.normal_x);
+    const __m128 ny = load(centres.normal_y);
+    const __m128 nz = load(centres.normal_z);
+    const __m128 offset =
+        _mm_max_ps(_mm_sub_ps(Absolute(Dot(x, y, z, nx, ny, nz)), _mm_set1_ps(offset_tolerance_)),
+                   _mm_setzero_ps());
+    const __m128 cosine =
+        Dot(nx, ny, nz, _mm_set1_ps(normal.x()), _mm_set1_ps(normal.y()), _mm_set1_ps(normal.z()));
+    const __m128 away = _mm_sqrt_ps(Dot(x, y, z, x, y, z));
+    return _mm_add_ps(
+        _mm_add_ps(_mm_mul_ps(_mm_set1_ps(spatial_factor_), away),
+                   _mm_mul_ps(_mm_set1_ps(normal_factor_), _mm_sub_ps(_mm_set1_ps(1), cosine))),
+        _mm_mul_ps(_mm_set1_ps(offset_factor_), offset));
   }
 
  private:
-  // All that a voxel needs, in half a cache line.
-  struct Voxel {
-    Eigen::Vector3f position = Eigen::Vector3f::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-    // The least distance it was offered yet: worse offers need no place in the queue.
-    float best_offer = 0;
-    std::uint32_t patch = kNoPatch;
-  };
-
-  struct GrowingPatch {
-    float count = 0;
-    Eigen::Vector3f base = Eigen::Vector3f::Zero();  // Sums relative to it keep their digits.
-    Eigen::Vector3f position_sum = Eigen::Vector3f::Zero();
-    Eigen::Vector3f normal_sum = Eigen::Vector3f::Zero();
-    Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-
-    void Add(const Eigen::Vector3f& p, const Eigen::Vector3f& unit_normal) {
-      count += 1;
-      position_sum += p - base;
-      normal_sum += unit_normal;
-      mean = base + position_sum / count;
-      const float norm = normal_sum.norm();
-      if (norm > 0) normal = normal_sum / norm;
-    }
-  };
-
-  void OfferToNeighbours(const BucketQueue::Entry& entry,
-                         const GrowingPatch& patch,
-                         BucketQueue& queue) {
-    const Eigen::Vector3f mean = patch.mean;
-    const Eigen::Vector3f normal = patch.normal;
-    for (const std::uint32_t index : grid_.NeighboursOf(entry.voxel)) {
-      Voxel& voxel = voxels_[index];
-      if (voxel.patch != kNoPatch) continue;
-      const float cosine = std::clamp(voxel.normal.dot(normal), -1.0F, 1.0F);
-      const Eigen::Vector3f away = voxel.position - mean;
-      const float offset = std::max(std::abs(normal.dot(away)) - offset_tolerance_, 0.0F);
-      const float distance =
-          spatial_factor_ * away.norm() + normal_factor_ * (1 - cosine) + offset_factor_ * offset;
-      if (distance >= voxel.best_offer) continue;
-      voxel.best_offer = distance;
-      queue.Push(distance, {index, entry.patch});
-    }
-  }
-
-  const VoxelGrid& grid_;
   float spatial_factor_;
   float normal_factor_;
   float offset_factor_;
   float offset_tolerance_;
-  std::vector<Voxel> voxels_;
 };
 
-// The centres of the grown patches, less those that stayed small.
-std::vector<Centre> CentresOf(const VoxelGrid& grid,
-                              const std::vector<std::uint32_t>& patch_of_voxel,
-                              std::size_t num_patches,
-                              std::size_t min_voxels) {
-  struct Sum {
-    std::size_t count = 0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+// Per occupied seed cell the voxel nearest to the mean of the cell's voxels.
+std::vector<Centre> PlaceSeeds(const VoxelGrid& grid,
+                               const std::vector<Eigen::Vector3f>& normals,
+                               const SeedCells& cells) {
+  struct Cell {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float count = 0;
     std::uint32_t nearest = 0;
     float distance = std::numeric_limits<float>::max();
   };
-  std::vector<Sum> sums(num_patches);
+  std::vector<Cell> found(cells.num_cells());
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    if (patch_of_voxel[voxel] == kNoPatch) continue;
-    Sum& sum = sums[patch_of_voxel[voxel]];
-    ++sum.count;
-    sum.position += grid.centroids[voxel].cast<double>();
+    Cell& cell = found[cells.cell_of_voxel()[voxel]];
+    cell.sum += grid.centroids[voxel];
+    cell.count += 1;
   }
+  for (Cell& cell : found) cell.sum /= cell.count;
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    if (patch_of_voxel[voxel] == kNoPatch) continue;
-    Sum& sum = sums[patch_of_voxel[voxel]];
-    const Eigen::Vector3f mean = (sum.position / static_cast<double>(sum.count)).cast<float>();
-    const float distance = (grid.centroids[voxel] - mean).squaredNorm();
-    if (distance >= sum.distance) continue;
-    sum.distance = distance;
-    sum.nearest = static_cast<std::uint32_t>(voxel);
+    Cell& cell = found[cells.cell_of_voxel()[voxel]];
+    const float distance = (grid.centroids[voxel] - cell.sum).squaredNorm();
+    if (distance >= cell.distance) continue;
+    cell.distance = distance;
+    cell.nearest = static_cast<std::uint32_t>(voxel);
+  }
+  std::vector<Centre> seeds;
+  for (const Cell& cell : found) {
+    seeds.push_back({grid.centroids[cell.nearest], normals[cell.nearest]});
+  }
+  return seeds;
+}
+
+// The centres around a cell, four at a time; lanes without one are infinitely far.
+struct CentreGroup {
+  FourPoints points;
+  alignas(16) std::array<std::uint32_t, 4> indices{};
+};
+
+std::vector<CentreGroup> GroupCentres(std::span<const std::uint32_t> indices,
+                                      const std::vector<Centre>& centres) {
+  constexpr float kNowhere = 1e15F;  // Its square is still a float.
+  std::vector<CentreGroup> groups((indices.size() + 3) / 4);
+  for (std::size_t i = 0; i < 4 * groups.size(); ++i) {
+    CentreGroup& group = groups[i / 4];
+    if (i < indices.size()) {
+      group.points.Set(i % 4, centres[indices[i]].position, centres[indices[i]].normal);
+      group.indices[i % 4] = indices[i];
+    } else {
+      group.points.Set(i % 4, Eigen::Vector3f::Constant(kNowhere), Eigen::Vector3f::Zero());
+      group.indices[i % 4] = kNoPatch;
+    }
+  }
+  return groups;
+}
+
+// Of equally near centres the first.
+std::uint32_t NearestOf(std::span<const CentreGroup> groups,
+                        const PatchDistance& distance_to,
+                        const Eigen::Vector3f& position,
+                        const Eigen::Vector3f& normal) {
+  alignas(16) std::array<float, 4> least{};
+  alignas(16) std::array<std::uint32_t, 4> indices{};
+  __m128 best = _mm_set1_ps(std::numeric_limits<float>::max());
+  __m128 best_indices = _mm_castsi128_ps(_mm_set1_epi32(-1));
+  for (const CentreGroup& group : groups) {
+    const __m128 distance = distance_to(group.points, position, normal);
+    const __m128 is_less = _mm_cmplt_ps(distance, best);
+    best = _mm_min_ps(distance, best);
+    const auto* words = reinterpret_cast<const float*>(group.indices.data());
+    best_indices = Choose(is_less, _mm_load_ps(words), best_indices);
+  }
+  _mm_store_ps(least.data(), best);
+  _mm_store_si128(reinterpret_cast<__m128i*>(indices.data()), _mm_castps_si128(best_indices));
+  std::size_t nearest = 0;
+  for (std::size_t lane = 1; lane < 4; ++lane) {
+    const bool is_nearer = least[lane] < least[nearest] ||
+                           (least[lane] == least[nearest] && indices[lane] < indices[nearest]);
+    if (is_nearer) nearest = lane;
+  }
+  return indices[nearest];
+}
+
+// The nearest of the centres around each voxel.
+std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
+                                        const std::vector<Eigen::Vector3f>& normals,
+                                        const std::vector<Centre>& centres,
+                                        const SeedCells& cells,
+                                        const PatchDistance& distance_to,
+                                        int num_threads) {
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(centres.size());
+  for (const Centre& centre : centres) positions.push_back(centre.position);
+  const SeedCells::Lists near = cells.FindNear(positions);
+  std::vector<std::vector<CentreGroup>> groups(cells.num_cells());
+  for (std::uint32_t cell = 0; cell < groups.size(); ++cell) {
+    groups[cell] = GroupCentres(near.Of(cell), centres);
+  }
+  std::vector<std::uint32_t> nearest(grid.size());
+  ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last; ++voxel) {
+      nearest[voxel] = NearestOf(groups[cells.cell_of_voxel()[voxel]], distance_to,
+                                 grid.centroids[voxel], normals[voxel]);
+    }
+  });
+  return nearest;
+}
+
+// The connected pieces of equal labels; of each voxel the first voxel of its piece.
+std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
+                                      const std::vector<std::uint32_t>& labels,
+                                      int num_threads) {
+  constexpr std::size_t kNumChunks = 8;
+  DisjointSets sets(grid.size());
+  // Within chunks side by side; then what connects them.
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seams(kNumChunks);
+  ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      const std::size_t first = grid.size() * chunk / kNumChunks;
+      const std::size_t last = grid.size() * (chunk + 1) / kNumChunks;
+      for (auto voxel = static_cast<std::uint32_t>(first); voxel < last; ++voxel) {
+        for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
+          if (other >= voxel) break;  // They ascend.
+          if (labels[other] != labels[voxel]) continue;
+          if (other >= first) {
+            sets.Join(voxel, other);
+          } else {
+            seams[chunk].emplace_back(voxel, other);
+          }
+        }
+      }
+    }
+  });
+  for (const auto& chunk : seams) {
+    for (const auto& [voxel, other] : chunk) sets.Join(voxel, other);
+  }
+  std::vector<std::uint32_t> pieces(grid.size());
+  for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) pieces[voxel] = sets.Find(voxel);
+  return pieces;
+}
+
+// Numbers the pieces that are large enough to be a patch, in the order of their first voxels.
+Supervoxels NumberPieces(const std::vector<std::uint32_t>& pieces, std::size_t min_voxels) {
+  std::vector<std::uint32_t> sizes(pieces.size(), 0);
+  for (const std::uint32_t piece : pieces) ++sizes[piece];
+  Supervoxels result;
+  result.patch_of_voxel.resize(pieces.size());
+  for (std::size_t voxel = 0; voxel < pieces.size(); ++voxel) {
+    const std::uint32_t piece = pieces[voxel];
+    std::uint32_t& patch = result.patch_of_voxel[voxel];
+    if (sizes[piece] < min_voxels) {
+      patch = kNoPatch;
+    } else {
+      patch = piece == voxel ? result.num_patches++ : result.patch_of_voxel[piece];
+    }
+  }
+  return result;
+}
+
+std::vector<Centre> CentresOf(const VoxelGrid& grid,
+                              const std::vector<Eigen::Vector3f>& normals,
+                              const Supervoxels& supervoxels) {
+  struct Sum {
+    double count = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  };
+  std::vector<Sum> sums(supervoxels.num_patches);
+  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
+    if (supervoxels.patch_of_voxel[voxel] == kNoPatch) continue;
+    Sum& sum = sums[supervoxels.patch_of_voxel[voxel]];
+    sum.count += 1;
+    sum.position += grid.centroids[voxel].cast<double>();
+    sum.normal += normals[voxel];
   }
   std::vector<Centre> centres;
   for (const Sum& sum : sums) {
-    if (sum.count < std::max<std::size_t>(min_voxels, 1)) continue;
-    centres.push_back({sum.nearest, grid.centroids[sum.nearest]});
+    // Leaves a zero normal as it is.
+    centres.push_back({(sum.position / sum.count).cast<float>(), sum.normal.normalized()});
   }
   return centres;
+}
+
+// Voxels without a patch join the nearest of those they touch, round by round from outside.
+void JoinCrumbs(const VoxelGrid& grid,
+                const std::vector<Eigen::Vector3f>& normals,
+                const std::vector<Centre>& centres,
+                const PatchDistance& distance_to,
+                Supervoxels& supervoxels) {
+  std::vector<std::uint32_t>& patch_of_voxel = supervoxels.patch_of_voxel;
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) {
+    if (patch_of_voxel[voxel] == kNoPatch) open.push_back(voxel);
+  }
+  std::vector<std::uint32_t> joined(open.size());
+  for (std::size_t num_open = open.size() + 1; open.size() < num_open;) {
+    num_open = open.size();
+    for (std::size_t i = 0; i < num_open; ++i) {
+      joined[i] = kNoPatch;
+      float least = std::numeric_limits<float>::max();
+      for (const std::uint32_t other : grid.NeighboursOf(open[i])) {
+        const std::uint32_t patch = patch_of_voxel[other];
+        if (patch == kNoPatch || patch == joined[i]) continue;
+        const float distance =
+            distance_to(centres[patch], grid.centroids[open[i]], normals[open[i]]);
+        if (distance > least || (distance == least && patch > joined[i])) continue;
+        least = distance;
+        joined[i] = patch;
+      }
+    }
+    for (std::size_t i = 0; i < num_open; ++i) patch_of_voxel[open[i]] = joined[i];
+    std::erase_if(open, [&](std::uint32_t voxel) { return patch_of_voxel[voxel] != kNoPatch; });
+  }
 }
 
 }  // namespace
 
 Supervoxels GrowSupervoxels(const VoxelGrid& grid,
                             const std::vector<Eigen::Vector3f>& normals,
-                            const SupervoxelOptions& options) {
-  std::vector<Centre> centres = PlaceSeeds(grid, options.seed_spacing);
-  Growth growth(grid, normals, options);
+                            const SupervoxelOptions& options,
+                            int num_threads) {
+  const SeedCells cells(grid, options.seed_spacing);
+  const PatchDistance distance_to(options);
+  std::vector<Centre> centres = PlaceSeeds(grid, normals, cells);
   Supervoxels result;
   for (int pass = 0; pass < options.num_passes; ++pass) {
-    if (pass > 0) {
-      centres = CentresOf(grid, result.patch_of_voxel, centres.size(), options.min_voxels);
-    }
-    result.patch_of_voxel = growth.Run(centres);
+    const std::vector<std::uint32_t> labels =
+        AssignVoxels(grid, normals, centres, cells, distance_to, num_threads);
+    result = NumberPieces(FindPieces(grid, labels, num_threads), options.min_voxels);
+    centres = CentresOf(grid, normals, result);
   }
-  result.num_patches = static_cast<std::uint32_t>(centres.size());
+  JoinCrumbs(grid, normals, centres, distance_to, result);
   return result;
 }
 

@@ -27,6 +27,7 @@ struct Supervoxels {
 // that none crosses a gap.
 Supervoxels GrowSupervoxels(const VoxelGrid& grid,
                             const std::vector<Eigen::Vector3f>& normals,
-                            const SupervoxelOptions& options);
+                            const SupervoxelOptions& options,
+                            int num_threads);
 
 }  // namespace semslam

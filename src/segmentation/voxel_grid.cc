@@ -64,13 +64,23 @@ Bounds FindBounds(std::span<const Eigen::Vector3f> points, double max_coordinate
   return bounds;
 }
 
-// Position in voxels from the corner of the free cell below the cloud.
-Eigen::Vector3d GridPosition(const VoxelGrid& grid, const Eigen::Vector3f& point) {
-  return (point.cast<double>() - grid.origin) / grid.voxel_size + Eigen::Vector3d::Ones();
-}
+// From points to positions in voxels from the corner of the free cell below the cloud.
+class GridPosition {
+ public:
+  explicit GridPosition(const VoxelGrid& grid)
+      : origin_(grid.origin), voxels_per_metre_(1 / grid.voxel_size) {}
+
+  Eigen::Vector3d operator()(const Eigen::Vector3f& point) const {
+    return (point.cast<double>() - origin_) * voxels_per_metre_ + Eigen::Vector3d::Ones();
+  }
+
+ private:
+  Eigen::Vector3d origin_;
+  double voxels_per_metre_;
+};
 
 KeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
-  const Eigen::Vector3d extent = GridPosition(grid, high);
+  const Eigen::Vector3d extent = GridPosition(grid)(high);
   std::array<int, 3> bits{};
   for (int axis = 0; axis < 3; ++axis) {
     bits[axis] = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(extent[axis]) + 2));
@@ -81,23 +91,32 @@ KeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
 std::vector<KeyedIndex> SortedKeys(const PointCloudView& cloud,
                                    const VoxelGrid& grid,
                                    const KeyLayout& layout,
-                                   std::size_t num_usable) {
+                                   std::size_t num_usable,
+                                   int num_threads) {
   const double max_coordinate = kMaxVoxelsFromZero * grid.voxel_size;
-  std::vector<KeyedIndex> items;
-  items.reserve(num_usable);
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Eigen::Vector3f& point = cloud.points[i];
-    if (!IsUsable(point, max_coordinate)) continue;
-    const Cell cell = GridPosition(grid, point).cast<std::int32_t>();
-    items.push_back({layout.Key(cell), static_cast<std::uint32_t>(i)});
+  const bool all_usable = num_usable == cloud.points.size();
+  const GridPosition position_of(grid);
+  std::vector<KeyedIndex> items(cloud.points.size());
+  ParallelFor(items.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Eigen::Vector3f& point = cloud.points[i];
+      if (!all_usable && !IsUsable(point, max_coordinate)) continue;
+      const Cell cell = position_of(point).cast<std::int32_t>();
+      items[i] = {layout.Key(cell), static_cast<std::uint32_t>(i)};
+    }
+  });
+  if (!all_usable) {
+    // No usable point has key 0: all cells lie above the free ones.
+    std::erase_if(items, [](const KeyedIndex& item) { return item.key == 0; });
   }
-  RadixSort(items, layout.num_bits);
+  RadixSort(items, layout.num_bits, num_threads);
   return items;
 }
 
 // Mean position and side of the points of one voxel. The sums are of integers, so that their order
 // has no effect.
 void Accumulate(const PointCloudView& cloud,
+                const GridPosition& position_of,
                 std::span<const KeyedIndex> items,
                 std::size_t voxel,
                 VoxelGrid& grid) {
@@ -108,13 +127,13 @@ void Accumulate(const PointCloudView& cloud,
   Sum position = Sum::Zero();
   Sum view = Sum::Zero();
   for (const KeyedIndex& item : items) {
-    const Eigen::Vector3d offset = GridPosition(grid, cloud.points[item.index]) - corner;
+    const Eigen::Vector3d offset = position_of(cloud.points[item.index]) - corner;
     position += (offset * kPositionScale).cast<std::int64_t>();
     if (cloud.normals.empty()) continue;
     const Eigen::Vector3f& normal = cloud.normals[item.index];
     const float norm = normal.norm();
     if (norm > 0 && std::isfinite(norm)) {
-      view += (normal * (kNormalScale / norm)).cast<std::int64_t>();
+      view += (normal * (kNormalScale / norm)).cast<std::int32_t>().cast<std::int64_t>();
     }
   }
   const double count = static_cast<double>(items.size());
@@ -128,22 +147,22 @@ void FillVoxels(const PointCloudView& cloud,
                 const KeyLayout& layout,
                 int num_threads,
                 VoxelGrid& grid) {
-  std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> begin;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (i > 0 && items[i].key == items[i - 1].key) continue;
-    begin.push_back(i);
+    begin.push_back(static_cast<std::uint32_t>(i));
     grid.keys.push_back(items[i].key);
   }
-  begin.push_back(items.size());
+  begin.push_back(static_cast<std::uint32_t>(items.size()));
   grid.cells.resize(grid.size());
   grid.centroids.resize(grid.size());
   grid.views.resize(grid.size());
-  grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
+  const GridPosition position_of(grid);
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
       const auto members = std::span(items).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
       grid.cells[voxel] = layout.CellOf(grid.keys[voxel]);
-      Accumulate(cloud, members, voxel, grid);
+      Accumulate(cloud, position_of, members, voxel, grid);
       for (const KeyedIndex& item : members) {
         grid.voxel_of_point[item.index] = static_cast<std::uint32_t>(voxel);
       }
@@ -171,17 +190,20 @@ class NeighbourWalk {
     }
   }
 
-  // Calls visit(neighbour) in ascending order; voxels must come in ascending order too.
-  template <typename Visitor>
-  void Visit(std::size_t voxel, const Visitor& visit) {
+  // Appends the neighbours in ascending order and returns their bits; voxels must come in ascending
+  // order too.
+  std::uint32_t Collect(std::size_t voxel, std::vector<std::uint32_t>& neighbours) {
+    std::uint32_t bits = 0;
     for (std::size_t row = 0; row < offsets_.size(); ++row) {
       const std::uint64_t low = keys_[voxel] + offsets_[row];
       std::size_t& place = places_[row];
       while (place < keys_.size() && keys_[place] < low) ++place;
       for (std::size_t i = place; i < keys_.size() && keys_[i] <= low + 2; ++i) {
-        if (i != voxel) visit(static_cast<std::uint32_t>(i));
+        bits |= std::uint32_t{1} << (3 * row + (keys_[i] - low));
+        if (i != voxel) neighbours.push_back(static_cast<std::uint32_t>(i));
       }
     }
+    return bits;
   }
 
  private:
@@ -191,24 +213,33 @@ class NeighbourWalk {
 };
 
 void FindNeighbours(const KeyLayout& layout, int num_threads, VoxelGrid& grid) {
-  grid.neighbour_begin.assign(grid.size() + 1, 0);
-  ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
-    NeighbourWalk walk(grid.keys, layout, first);
-    for (std::size_t voxel = first; voxel < last; ++voxel) {
-      std::uint32_t count = 0;
-      walk.Visit(voxel, [&](std::uint32_t) { ++count; });
-      grid.neighbour_begin[voxel + 1] = count;
+  const std::size_t num_chunks = (grid.size() + kGrain - 1) / kGrain;
+  std::vector<std::vector<std::uint32_t>> found(num_chunks);
+  grid.neighbour_bits.resize(grid.size());
+  const auto last_of = [&](std::size_t chunk) {
+    return std::min((chunk + 1) * kGrain, grid.size());
+  };
+  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      constexpr std::size_t kUsualNeighbours = 12;
+      found[chunk].reserve(kUsualNeighbours * kGrain);
+      NeighbourWalk walk(grid.keys, layout, chunk * kGrain);
+      for (std::size_t voxel = chunk * kGrain; voxel < last_of(chunk); ++voxel) {
+        grid.neighbour_bits[voxel] = walk.Collect(voxel, found[chunk]);
+      }
     }
   });
+  grid.neighbour_begin.assign(grid.size() + 1, 0);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    grid.neighbour_begin[i + 1] += grid.neighbour_begin[i];
+    const auto count = static_cast<std::uint32_t>(std::popcount(grid.neighbour_bits[i])) - 1;
+    grid.neighbour_begin[i + 1] = grid.neighbour_begin[i] + count;
   }
   grid.neighbours.resize(grid.neighbour_begin.back());
-  ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
-    NeighbourWalk walk(grid.keys, layout, first);
-    std::size_t place = grid.neighbour_begin[first];
-    for (std::size_t voxel = first; voxel < last; ++voxel) {
-      walk.Visit(voxel, [&](std::uint32_t other) { grid.neighbours[place++] = other; });
+  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      std::copy(found[chunk].begin(), found[chunk].end(),
+                grid.neighbours.begin() + grid.neighbour_begin[chunk * kGrain]);
+      found[chunk] = {};
     }
   });
 }
@@ -229,7 +260,8 @@ VoxelGrid BuildVoxelGrid(const PointCloudView& cloud, double voxel_size, int num
 
   grid.origin = bounds.low.cast<double>();
   const KeyLayout layout = MakeLayout(grid, bounds.high);
-  const std::vector<KeyedIndex> items = SortedKeys(cloud, grid, layout, bounds.num_points);
+  const std::vector<KeyedIndex> items =
+      SortedKeys(cloud, grid, layout, bounds.num_points, num_threads);
   FillVoxels(cloud, items, layout, num_threads, grid);
   FindNeighbours(layout, num_threads, grid);
   return grid;

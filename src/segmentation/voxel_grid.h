@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -30,11 +31,26 @@ struct VoxelGrid {
   // neighbours[neighbour_begin[v] .. neighbour_begin[v + 1]).
   std::vector<std::uint32_t> neighbour_begin;
   std::vector<std::uint32_t> neighbours;
+  // Which of the 27 cells around voxel v are occupied: bit NeighbourBit of the step, its own too.
+  std::vector<std::uint32_t> neighbour_bits;
+
+  // Ascending as the neighbours do.
+  static constexpr int NeighbourBit(int dx, int dy, int dz) {
+    return 9 * (dz + 1) + 3 * (dy + 1) + dx + 1;
+  }
 
   std::size_t size() const { return keys.size(); }
   std::span<const std::uint32_t> NeighboursOf(std::size_t voxel) const {
     return std::span(neighbours)
         .subspan(neighbour_begin[voxel], neighbour_begin[voxel + 1] - neighbour_begin[voxel]);
+  }
+  // The voxel at a NeighbourBit other than the middle one; kNoVoxel if there is none.
+  std::uint32_t NeighbourAt(std::size_t voxel, int bit) const {
+    constexpr int kOwn = NeighbourBit(0, 0, 0);
+    const std::uint32_t bits = neighbour_bits[voxel];
+    if ((bits >> bit & 1) == 0) return kNoVoxel;
+    const int rank = std::popcount(bits & ((std::uint32_t{1} << bit) - 1)) - (bit > kOwn ? 1 : 0);
+    return neighbours[neighbour_begin[voxel] + static_cast<std::uint32_t>(rank)];
   }
 };
 

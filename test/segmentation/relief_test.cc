@@ -113,7 +113,7 @@ TEST(LocalSurface, FollowsTheWarpAndNotTheThingsOnIt) {
       FindStructuralPieces(graph, {{-Eigen::Vector3d::UnitZ(), 0.005}}, labels, 0.25);
   ASSERT_EQ(pieces.pieces.size(), 1U);
   EXPECT_GT(pieces.pieces[0].plane.normal.z(), 0.99) << "not towards the viewer";
-  const auto surfaces = FindLocalSurfaces(graph, pieces, ReliefOptions());
+  const auto surfaces = FindLocalSurfaces(graph, pieces, ReliefOptions(), 1);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     ASSERT_EQ(surfaces[i].size(), 1U);
     EXPECT_NEAR(surfaces[i][0].plane.SignedDistance(table.patches[i].centroid), 0, 0.0025) << i;

@@ -25,7 +25,7 @@ Grown Grow(const PointCloudView& cloud) {
   Grown result;
   result.grid = BuildVoxelGrid(cloud, 0.008, 1);
   result.normals = ComputeVoxelNormals(result.grid, 1);
-  result.supervoxels = GrowSupervoxels(result.grid, result.normals, SupervoxelOptions());
+  result.supervoxels = GrowSupervoxels(result.grid, result.normals, SupervoxelOptions(), 1);
   return result;
 }
 

@@ -30,7 +30,7 @@ TEST(RadixSort, OrdersLikeAStableSort) {
   std::vector<KeyedIndex> expected = items;
   std::stable_sort(expected.begin(), expected.end(),
                    [](const auto& a, const auto& b) { return a.key < b.key; });
-  RadixSort(items, 34);
+  RadixSort(items, 34, 2);
   for (std::size_t i = 0; i < items.size(); ++i) {
     ASSERT_EQ(items[i].key, expected[i].key);
     ASSERT_EQ(items[i].index, expected[i].index);
@@ -49,6 +49,23 @@ TEST(VoxelGrid, NeighboursAreThoseOfAnExhaustiveSearch) {
     const auto found = grid.NeighboursOf(a);
     ASSERT_THAT(std::vector(found.begin(), found.end()), testing::ElementsAreArray(expected));
   }
+}
+
+TEST(VoxelGrid, NeighboursAreFoundByTheStepTowardsThem) {
+  const auto points = RandomPoints(3000, 0.07F, 1);
+  const VoxelGrid grid = BuildVoxelGrid({points, {}}, 0.01, 2);
+  std::size_t num_found = 0;
+  for (std::size_t a = 0; a < grid.size(); ++a) {
+    for (int bit = 0; bit < 27; ++bit) {
+      const Eigen::Vector3i step(bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1);
+      ASSERT_EQ(VoxelGrid::NeighbourBit(step.x(), step.y(), step.z()), bit);
+      const std::uint32_t b = step.isZero() ? kNoVoxel : grid.NeighbourAt(a, bit);
+      if (b == kNoVoxel) continue;
+      ASSERT_EQ(grid.cells[b], grid.cells[a] + step);
+      ++num_found;
+    }
+  }
+  EXPECT_EQ(num_found, grid.neighbours.size());
 }
 
 TEST(VoxelGrid, EveryPointLiesInItsVoxel) {

@@ -56,6 +56,7 @@ class VoxelMap {
   // The voxels seen well enough, in the order of their keys: the same map gives the same bytes.
   MapCloud Extract() const;
 
+  bool Contains(KeyframeId id) const { return keyframes_.contains(id); }
   std::size_t num_keyframes() const { return keyframes_.size(); }
   std::size_t num_voxels() const;
   // Points of the keyframes in the map that found no voxel because of max_voxels.
