@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 import unittest
 
 import harness
@@ -31,7 +32,7 @@ class ViewerTest(EndToEndTest):
         process = subprocess.Popen([BIN / program, *map(str, arguments)], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True,
                                    env=environment or self.screen.environment())
-        self.addCleanup(process.communicate)
+        self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
 
@@ -42,9 +43,8 @@ class ViewerTest(EndToEndTest):
 
     def finish(self, process):
         """Its lines of complaint, but for the progress."""
-        process.out, process.err = process.communicate(timeout=LIMIT)
-        process.stderr = process.err  # For harness.complaints.
-        return complaints(process)
+        _, process.err = process.communicate(timeout=LIMIT)
+        return complaints(types.SimpleNamespace(stderr=process.err))
 
     def assert_finished_well(self, process):
         lines = self.finish(process)
