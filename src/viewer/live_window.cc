@@ -239,7 +239,7 @@ class LiveWindow {
     if (has_changed) {
       follows_ = false;
       camera_.LookAt(selected->box.T_world_box.translation,
-                     std::max(0.6, 5 * selected->box.half_size.norm()));
+                     std::max(0.8, 7 * selected->box.half_size.norm()));
     }
     TellObject(*selected, map_->map.classes);
     sightings_.Draw(ImGui::GetContentRegionAvail().x);
