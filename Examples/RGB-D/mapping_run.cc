@@ -3,6 +3,7 @@
 
 #include "mapping_run.h"
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -167,7 +168,10 @@ int MapFrames(const MappingArguments& arguments,
   }
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);
-  if (window != nullptr && arguments.viewer_stays) window->WaitUntilClosed(options.should_stop);
+  if (window != nullptr && arguments.viewer_stays) {
+    std::fflush(stdout);  // Who reads the summary need not wait for the window.
+    window->WaitUntilClosed(options.should_stop);
+  }
   if (!error.empty()) throw semslam::InputError(error);
   return IsTooMuchLost(run) ? 2 : 0;
 }

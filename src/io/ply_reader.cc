@@ -106,6 +106,8 @@ class HeaderParser {
   void ReadFormat(std::istringstream& words) {
     std::string format;
     words >> format;
+    // It decides where the values of the properties lie.
+    if (has_format_) Fail(name_, "header: expected one line with the format");
     has_format_ = true;
     if (format == "ascii") {
       header_.encoding = Encoding::kAscii;
@@ -122,6 +124,8 @@ class HeaderParser {
     std::string element;
     long long count = -1;
     words >> element >> count;
+    if (!has_format_) Fail(name_, "header: expected the format before the elements");
+    if (element == "vertex" && has_vertex_) Fail(name_, "header: expected one element vertex");
     is_in_vertex_ = element == "vertex";
     if (!is_in_vertex_ && !has_vertex_ && count != 0)
       Fail(name_, "header: expected the vertices first, found " + Quoted(element));

@@ -67,7 +67,8 @@ std::shared_ptr<const PointCloudMapping::Result> PointCloudMapping::preview() co
 void PointCloudMapping::Process(Job job) {
   Do(std::move(job));
   const bool is_wanted = sight_.Read([](const Sight& sight) { return sight.preview_is_wanted; });
-  if (is_wanted && stage_.queue_size() == 0) ShowPreview();
+  // Keyframes may wait a little, as long as nobody has to wait for room in the queue.
+  if (is_wanted && stage_.queue_size() <= options_.queue_capacity / 4) ShowPreview();
 }
 
 void PointCloudMapping::ShowPreview() {

@@ -6,6 +6,7 @@
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
+#include <opencv2/core.hpp>
 
 #include "semslam/base/error.h"
 
@@ -118,6 +119,15 @@ void GlTarget::Resize(int width, int height) {
     throw InputError("OpenGL has no picture of " + std::to_string(width) + "x" +
                      std::to_string(height) + " pixels");
   }
+}
+
+cv::Mat GlTarget::Read() const {
+  cv::Mat picture(height_, width_, CV_8UC3);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_BGR, GL_UNSIGNED_BYTE, picture.data);
+  cv::flip(picture, picture, 0);  // OpenGL's rows begin at the bottom.
+  return picture;
 }
 
 }  // namespace semslam

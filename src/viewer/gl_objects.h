@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <opencv2/core/mat.hpp>
+
 namespace semslam {
 
 // Kinds of objects that OpenGL keeps and knows by number.
@@ -57,6 +59,8 @@ class GlTarget {
   explicit GlTarget(bool has_depth) : has_depth_(has_depth) {}
   // What it held is lost if the size changes. Throws InputError if OpenGL cannot have it.
   void Resize(int width, int height);
+  // What was drawn: CV_8UC3, BGR.
+  cv::Mat Read() const;
   unsigned framebuffer() const { return framebuffer_.id(); }
   unsigned color() const { return color_.id(); }
   unsigned depth() const { return depth_.id(); }

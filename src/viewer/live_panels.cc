@@ -12,7 +12,7 @@
 namespace semslam {
 namespace {
 
-constexpr float kCameraWidth = 300;  // Pixels of an ordinary screen.
+constexpr float kCameraWidth = 328;  // Pixels of an ordinary screen.
 constexpr ImU32 kLandmarkColor = IM_COL32(90, 235, 120, 255);
 constexpr ImU32 kOtherColor = IM_COL32(120, 160, 230, 150);
 

@@ -27,7 +27,9 @@ constexpr double kMapInterval = 3;                // At least, between two label
 constexpr double kPictureInterval = 1.0 / 30;     // With a graphics card, seconds.
 constexpr double kSoftwareInterval = 1.0 / 6;     // Without.
 constexpr std::size_t kSoftwarePoints = 200'000;  // That many are drawn then.
-constexpr double kSoftwareShare = 0.25;           // Of a core, at most.
+constexpr double kSoftwareShare = 0.25;           // Of a core, at most, but
+constexpr double kMaxInterval = 0.6;              // on a busy machine no fewer than this.
+constexpr int kPicturesAtOnce = 3;                // At first: panels take two to find their size.
 
 constexpr LineStyle kCovisibleStyle{
     .color = {96, 200, 150}, .alpha = 0.30F, .width = 1.0F, .hidden_share = 0.1F};
@@ -73,9 +75,10 @@ class LiveWindow {
 
   // Until the next picture. Without a graphics card so long that the run keeps its cores.
   double Wait() {
-    const double interval =
-        is_software() ? std::max(kSoftwareInterval, window_.picture_seconds() / kSoftwareShare)
-                      : kPictureInterval;
+    if (num_pictures_++ < kPicturesAtOnce) return 0;
+    const double interval = is_software() ? std::clamp(window_.picture_seconds() / kSoftwareShare,
+                                                       kSoftwareInterval, kMaxInterval)
+                                          : kPictureInterval;
     return std::max(0.001, interval - since_picture_.Seconds());
   }
 
@@ -152,7 +155,7 @@ class LiveWindow {
   float DrawControls() {
     const float scale = window_.scale();
     ImGui::SetNextWindowPos({10 * scale, 10 * scale}, ImGuiCond_Always);
-    ImGui::SetNextWindowSize({1.067F * kSidePanelWidth * scale, 0}, ImGuiCond_Always);
+    ImGui::SetNextWindowSize({1.16F * kSidePanelWidth * scale, 0}, ImGuiCond_Always);
     ImGui::Begin(
         "Run", nullptr,
         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoFocusOnAppearing);
@@ -236,7 +239,7 @@ class LiveWindow {
     if (has_changed) {
       follows_ = false;
       camera_.LookAt(selected->box.T_world_box.translation,
-                     std::max(0.6, 5 * selected->box.half_size.norm()));
+                     std::max(0.8, 7 * selected->box.half_size.norm()));
     }
     TellObject(*selected, map_->map.classes);
     sightings_.Draw(ImGui::GetContentRegionAvail().x);
@@ -328,6 +331,7 @@ class LiveWindow {
   bool shows_keyframes_ = true;
   bool shows_edges_ = true;
   bool is_level_ = false;
+  int num_pictures_ = 0;
   bool has_graph_ = false;
   bool has_asked_ = false;
   Stopwatch since_graph_;

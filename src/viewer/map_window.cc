@@ -76,9 +76,9 @@ class MapWindow {
   void FlyTo(std::uint32_t id) {
     for (const ObjectRecord& object : scene_.map.objects) {
       if (object.id != id) continue;
-      constexpr double kDistancePerSize = 5;
+      constexpr double kDistancePerSize = 7;
       camera_.LookAt(object.box.T_world_box.translation,
-                     std::max(0.6, kDistancePerSize * object.box.half_size.norm()));
+                     std::max(0.8, kDistancePerSize * object.box.half_size.norm()));
     }
     num_due_ = 3;
   }

@@ -10,7 +10,6 @@
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
-#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/error.h"
@@ -25,15 +24,6 @@ namespace semslam {
 namespace {
 
 constexpr float kFontSize = 15;  // Pixels.
-
-cv::Mat ReadPixels(const GlTarget& target) {
-  cv::Mat rgb(target.height(), target.width(), CV_8UC3);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer());
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, rgb.cols, rgb.rows, GL_BGR, GL_UNSIGNED_BYTE, rgb.data);
-  cv::flip(rgb, rgb, 0);  // OpenGL's rows begin at the bottom.
-  return rgb;
-}
 
 void LimitToDevice(const Renderer& renderer, int width, int height) {
   GLint largest = 0;
@@ -103,7 +93,7 @@ cv::Mat TakePicture(const MapScene& scene, const PictureOptions& options) {
   }
   gui.End();
   cv::Mat picture;
-  cv::resize(ReadPixels(target), picture, {options.width, options.height}, 0, 0, cv::INTER_AREA);
+  cv::resize(target.Read(), picture, {options.width, options.height}, 0, 0, cv::INTER_AREA);
   return picture;
 }
 

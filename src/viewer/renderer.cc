@@ -154,7 +154,8 @@ class Renderer::State {
  private:
   // Near enough and far enough for all points, and for the lines about them.
   void FindDepthRange(const ViewCamera& camera) {
-    constexpr float kMaxRatio = 1e4F;
+    constexpr float kMinRatio = 200.0F;  // Lines may be nearer than points.
+    constexpr float kMaxRatio = 1e4F;    // More would leave too few steps of depth.
     float nearest = 1e9F;
     float farthest = 1.0F;
     for (const auto& [id, chunk] : chunks_) {
@@ -166,7 +167,7 @@ class Renderer::State {
       farthest = std::max(farthest, distance + radius);
     }
     far_ = 2.0F * farthest;
-    near_ = std::clamp(0.25F * nearest, far_ / kMaxRatio, 0.05F * far_);
+    near_ = std::clamp(0.25F * nearest, far_ / kMaxRatio, far_ / kMinRatio);
   }
 
   void DrawPoints(const ViewCamera& camera, const Options& options) {

@@ -10,9 +10,11 @@ PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
             "train_vocabulary"]
 if (BIN / "rgbd_openni2").exists():  # Only where OpenNI2 is installed.
     PROGRAMS.append("rgbd_openni2")
+if (BIN / "view_map").exists():  # Only where the viewer's packages are installed.
+    PROGRAMS.append("view_map")
 OPTIONS = ["--output", "--network", "--detections", "--save-detections", "--classes", "--score",
            "--drop-late", "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
-           "--localization", "--help", "--version"]
+           "--localization", "--viewer", "--viewer-stays", "--help", "--version"]
 
 
 class UsageTest(EndToEndTest):

@@ -85,7 +85,7 @@ class PointCloudMapping {
   // --- For those who watch while it runs, from any thread.
   // What the keyframes saw, ascending by id, in the frames of the keyframes.
   std::vector<std::shared_ptr<const KeyframeCloud>> clouds() const;
-  // The map as it is, segmented and labelled, as soon as nothing else waits; in the background, and
+  // The map as it is, segmented and labelled, as soon as little else waits; in the background, and
   // never with Threading::kInline. An object keeps its id from one preview to the next.
   void RequestPreview();
   // The newest one; null before the first.
