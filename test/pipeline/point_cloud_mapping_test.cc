@@ -3,6 +3,7 @@
 
 #include "semslam/pipeline/point_cloud_mapping.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -114,6 +115,41 @@ TEST_P(PointCloudMappingTest, DetectionsOfAnUnknownKeyframeDoNoHarm) {
   ASSERT_TRUE(Insert(0));
   ASSERT_TRUE(mapping_.InsertDetections(KeyframeId{7}, {}));
   EXPECT_GT(mapping_.Finish().cloud.size(), 100u);
+}
+
+TEST_P(PointCloudMappingTest, ShowsTheSegmentsWhileTheMapGrows) {
+  for (std::uint32_t keyframe = 0; keyframe < 4; ++keyframe) {
+    SetPose(keyframe, {0.05 * keyframe, 0, 0});
+    mapping_.RequestLiveMap();
+    ASSERT_TRUE(Insert(keyframe));
+  }
+  const PointCloudMapping::Result result = mapping_.Finish();
+  EXPECT_EQ(result.live.num_keyframes, 4U);
+  const std::shared_ptr<const LiveMap> live = mapping_.live_map();
+  ASSERT_NE(live, nullptr);
+  ASSERT_EQ(live->segment_of_point.size(), live->cloud.size());
+  const std::size_t num_segmented =
+      live->cloud.size() -
+      static_cast<std::size_t>(
+          std::count(live->segment_of_point.begin(), live->segment_of_point.end(), SegmentId{0}));
+  EXPECT_GT(num_segmented, live->cloud.size() / 2);
+}
+
+TEST_P(PointCloudMappingTest, LiveSegmentsDoNotChangeTheResult) {
+  PointCloudMapping::Options options = Options();
+  options.live.enabled = false;
+  PointCloudMapping without(GetParam(), options, Camera(), ClassTable(), LookUp());
+  for (std::uint32_t keyframe = 0; keyframe < 3; ++keyframe) {
+    SetPose(keyframe, {0.05 * keyframe, 0, 0});
+    ASSERT_TRUE(Insert(keyframe));
+    const int image = static_cast<int>(keyframe);
+    ASSERT_TRUE(without.InsertKeyframe(KeyframeId{keyframe}, wall_.Image(image)));
+  }
+  const PointCloudMapping::Result a = mapping_.Finish();
+  const PointCloudMapping::Result b = without.Finish();
+  EXPECT_EQ(a.cloud.positions, b.cloud.positions);
+  EXPECT_EQ(a.segmentation.segment_of_point, b.segmentation.segment_of_point);
+  EXPECT_EQ(without.live_map(), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threading,
