@@ -81,6 +81,13 @@ void PrintSummary(const RunStatistics& run,
               map.integration_milliseconds);
   std::printf("segments              %zu, in %.0f ms\n", map.segmentation.segments.size(),
               map.segmentation_milliseconds);
+  if (map.live.num_keyframes > 0) {
+    std::printf(
+        "live segments         %zu, %.1f ms a keyframe (%.1f in the first half, %.1f in the "
+        "second, %.1f at most)\n",
+        map.live.num_segments, map.live.mean_milliseconds, map.live.first_half_milliseconds,
+        map.live.second_half_milliseconds, map.live.max_milliseconds);
+  }
   PrintSemantics(system, map);
   std::printf("peak memory           %.0f MB\n", PeakMegabytes());
   std::printf("files                 %s\n",

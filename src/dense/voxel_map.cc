@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "semslam/base/check.h"
@@ -77,6 +78,11 @@ Eigen::Vector3i CoordinatesOf(std::uint64_t key) {
   return {coordinate(key >> 42), coordinate(key >> 21), coordinate(key)};
 }
 
+bool IsSeenWell(const Voxel& voxel, const VoxelMap::Options& options) {
+  return voxel.num_views >= options.min_views &&
+         static_cast<float>(voxel.weight) >= options.min_weight;
+}
+
 void AppendTo(MapCloud& cloud, const Voxel& voxel) {
   const double weight = voxel.weight;
   Eigen::Vector3d offset;
@@ -134,7 +140,7 @@ bool VoxelMap::Remove(KeyframeId id) {
   if (it == keyframes_.end()) return false;
   Subtract(it->second);
   keyframes_.erase(it);
-  table_->CompactIfSparse();
+  CompactIfSparse();
   return true;
 }
 
@@ -153,11 +159,12 @@ std::size_t VoxelMap::UpdatePoses(const std::map<KeyframeId, Rigid3>& T_world_ca
   }
   // One by one, so that the map never grows by more than one keyframe.
   for (const auto& [entry, pose] : moved) {
+    if (records_changes_) RecordMove(*entry, *pose);
     Subtract(*entry);
     entry->T_world_camera = *pose;
     Add(*entry);
   }
-  table_->CompactIfSparse();
+  CompactIfSparse();
   return moved.size();
 }
 
@@ -165,10 +172,7 @@ MapCloud VoxelMap::Extract() const {
   std::vector<const Voxel*> voxels;
   voxels.reserve(table_->num_voxels());
   table_->ForEach([&](const Voxel& voxel) {
-    if (voxel.num_views >= options_.min_views &&
-        static_cast<float>(voxel.weight) >= options_.min_weight) {
-      voxels.push_back(&voxel);
-    }
+    if (IsSeenWell(voxel, options_)) voxels.push_back(&voxel);
   });
   std::sort(voxels.begin(), voxels.end(),
             [](const Voxel* a, const Voxel* b) { return a->key() < b->key(); });
@@ -181,6 +185,58 @@ MapCloud VoxelMap::Extract() const {
   cloud.num_views.reserve(voxels.size());
   for (const Voxel* voxel : voxels) AppendTo(cloud, *voxel);
   return cloud;
+}
+
+MapCloud VoxelMap::Extract(std::span<const std::uint64_t> keys) const {
+  MapCloud cloud;
+  cloud.voxel_size = options_.voxel_size;
+  for (const std::uint64_t key : keys) {
+    const Voxel* voxel = table_->Find(key);
+    if (voxel != nullptr && voxel->weight != 0) {
+      AppendTo(cloud, *voxel);
+      if (IsSeenWell(*voxel, options_)) continue;
+    } else {
+      cloud.positions.emplace_back();
+      cloud.normals.push_back(Eigen::Vector3f::UnitZ());
+      cloud.colors.emplace_back();
+      cloud.weights.push_back(0);
+      cloud.num_views.push_back(0);
+    }
+    cloud.positions.back().setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return cloud;
+}
+
+void VoxelMap::RecordChanges() {
+  records_changes_ = true;
+  table_->ForEach([this](const Voxel& voxel) { Record(voxel.key()); });
+}
+
+void VoxelMap::Record(std::uint64_t key) {
+  if (records_changes_) changed_.push_back(table_->NumberOf(key));
+}
+
+// Of voxels that went and came back nothing is told.
+void VoxelMap::FindChanges() {
+  for (const std::uint32_t number : changed_) {
+    Voxel& voxel = table_->At(number);
+    const bool is_there = voxel.weight != 0;
+    if (is_there == voxel.is_told()) continue;
+    voxel.ToggleTold();
+    (is_there ? changes_.appeared : changes_.vanished).push_back(voxel.key());
+  }
+  changed_.clear();
+}
+
+VoxelMap::Changes VoxelMap::TakeChanges() {
+  FindChanges();
+  return std::exchange(changes_, {});
+}
+
+void VoxelMap::CompactIfSparse() {
+  if (!table_->IsSparse()) return;
+  FindChanges();
+  table_->Compact();
 }
 
 std::size_t VoxelMap::num_voxels() const { return table_->num_voxels(); }
@@ -210,7 +266,10 @@ void VoxelMap::Add(Entry& entry) {
       ++entry.num_refused;
       return;
     }
-    if (voxel->weight == 0) table_->CountRefilled();
+    if (voxel->weight == 0) {
+      table_->CountRefilled();
+      Record(keyed->key);
+    }
     voxel->Add(keyed->sample);
     if (std::exchange(voxel->last_pass, pass) != pass) ++voxel->num_views;
   });
@@ -228,8 +287,24 @@ void VoxelMap::Subtract(const Entry& entry) {
     Voxel* voxel = table_->Find(keyed->key);
     SEMSLAM_CHECK(voxel != nullptr) << "a voxel of keyframe " << entry.cloud->id().value;
     voxel->Subtract(keyed->sample);
-    if (voxel->weight == 0) table_->CountEmptied();
+    if (voxel->weight == 0) {
+      table_->CountEmptied();
+      Record(keyed->key);
+    }
     if (std::exchange(voxel->last_pass, pass) != pass) --voxel->num_views;
+  });
+}
+
+void VoxelMap::RecordMove(const Entry& entry, const Rigid3& T_world_camera) {
+  constexpr std::size_t kStep = 61;  // Points; neighbours go the same way.
+  const Sampler before(entry.T_world_camera, options_.voxel_size);
+  const Sampler after(T_world_camera, options_.voxel_size);
+  std::size_t index = 0;
+  entry.cloud->ForEach([&](const KeyframePoint& point) {
+    if (index++ % kStep != 0) return;
+    const auto from = before(point);
+    const auto to = after(point);
+    if (from && to && from->key != to->key) changes_.moved.emplace_back(from->key, to->key);
   });
 }
 

@@ -53,6 +53,12 @@ Voxel* VoxelTable::Find(std::uint64_t key) {
   return number == 0 ? nullptr : &At(number - 1);
 }
 
+const Voxel* VoxelTable::Find(std::uint64_t key) const {
+  if (slots_.empty()) return nullptr;
+  const std::uint32_t number = slots_[SlotOf(key)];
+  return number == 0 ? nullptr : &At(number - 1);
+}
+
 Voxel* VoxelTable::FindOrCreate(std::uint64_t key, std::size_t max_voxels) {
   if (slots_.empty()) Rehash(kMinSlots);
   std::size_t slot = SlotOf(key);
@@ -80,10 +86,6 @@ std::uint16_t VoxelTable::BeginPass() {
   return ++pass_;
 }
 
-void VoxelTable::CompactIfSparse() {
-  if (num_empty_ * 4 > size_) Compact();
-}
-
 std::size_t VoxelTable::memory_bytes() const {
   return slots_.size() * sizeof(std::uint32_t) + blocks_.size() * sizeof(Block);
 }
@@ -96,7 +98,7 @@ Voxel& VoxelTable::Append(std::uint64_t key) {
   return voxel;
 }
 
-std::size_t VoxelTable::SlotOf(std::uint64_t key) {
+std::size_t VoxelTable::SlotOf(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = VoxelKey::Hash(key) & mask;
   while (slots_[slot] != 0 && At(slots_[slot] - 1).key() != key) slot = (slot + 1) & mask;

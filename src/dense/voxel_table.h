@@ -29,7 +29,14 @@ struct Voxel {
   std::uint16_t num_views = 0;
   std::uint16_t last_pass = 0;  // The pass that counted its view last.
 
-  std::uint64_t key() const { return std::uint64_t{key_halves[1]} << 32 | key_halves[0]; }
+  static constexpr std::uint32_t kToldBit = std::uint32_t{1} << 31;  // Keys have 63 bits.
+
+  std::uint64_t key() const {
+    return std::uint64_t{key_halves[1] & ~kToldBit} << 32 | key_halves[0];
+  }
+  // Whether those who are told of the changes believe it to be there.
+  bool is_told() const { return (key_halves[1] & kToldBit) != 0; }
+  void ToggleTold() { key_halves[1] ^= kToldBit; }
   void Add(const VoxelSample& sample);
   void Subtract(const VoxelSample& sample);
 };
@@ -41,6 +48,7 @@ class VoxelTable {
  public:
   // Null if there is none.
   Voxel* Find(std::uint64_t key);
+  const Voxel* Find(std::uint64_t key) const;
   // Makes an empty one if there is none; null if that would exceed max_voxels.
   Voxel* FindOrCreate(std::uint64_t key, std::size_t max_voxels);
 
@@ -49,8 +57,16 @@ class VoxelTable {
   // Tells that a voxel's weight fell to zero.
   void CountEmptied() { ++num_empty_; }
   void CountRefilled() { --num_empty_; }
-  // Drops the empty voxels if they are many.
-  void CompactIfSparse();
+  // Whether so many voxels are empty that they should be dropped, which Compact does.
+  bool IsSparse() const { return num_empty_ * 4 > size_; }
+  void Compact();
+
+  // Of a voxel, until the next Compact.
+  std::uint32_t NumberOf(std::uint64_t key) const { return slots_[SlotOf(key)] - 1; }
+  Voxel& At(std::size_t number) { return (*blocks_[number / kBlockSize])[number % kBlockSize]; }
+  const Voxel& At(std::size_t number) const {
+    return (*blocks_[number / kBlockSize])[number % kBlockSize];
+  }
 
   std::size_t num_voxels() const { return size_ - num_empty_; }
   std::size_t memory_bytes() const;
@@ -68,11 +84,10 @@ class VoxelTable {
   static constexpr std::size_t kBlockSize = 4096;
   using Block = std::array<Voxel, kBlockSize>;
 
-  Voxel& At(std::size_t number) { return (*blocks_[number / kBlockSize])[number % kBlockSize]; }
   Voxel& Append(std::uint64_t key);
-  std::size_t SlotOf(std::uint64_t key);  // Holding the key, or the empty one where it belongs.
+  std::size_t SlotOf(
+      std::uint64_t key) const;  // Holding the key, or the empty one where it belongs.
   void Rehash(std::size_t num_slots);
-  void Compact();
 
   std::vector<std::uint32_t> slots_;  // Number + 1; 0: free. A power of two of them, or none.
   std::vector<std::unique_ptr<Block>> blocks_;

@@ -13,6 +13,7 @@ void PointCloudMapping::Options::Validate() const {
   cloud.Validate();
   voxels.Validate();
   segmentation.Validate();
+  live.Validate();
   fusion.Validate();
 }
 
@@ -27,6 +28,7 @@ PointCloudMapping::PointCloudMapping(Threading threading,
       classes_(std::move(classes)),
       look_up_(std::move(look_up)),
       voxel_map_(options.voxels),
+      live_segments_(options.live, options.segmentation, &voxel_map_),
       stage_(
           {.threading = threading, .queue_capacity = options.queue_capacity, .is_background = true},
           [this](Job job) { Process(std::move(job)); }) {
@@ -96,7 +98,8 @@ void PointCloudMapping::Do(Job job) {
       detections_[job.keyframe] = std::move(job.detections);
       return;
     case Job::Kind::kCorrection:
-      return FollowPoses(options_.voxels.max_shift);
+      FollowPoses(options_.voxels.max_shift);
+      return live_segments_.FollowCorrection();
     case Job::Kind::kPreview:
       return;  // It comes after everything.
   }
@@ -110,6 +113,7 @@ void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
   FollowPoses(options_.voxels.max_shift);
   integration_seconds_ += stopwatch.Seconds();
   ++num_integrated_;
+  live_segments_.Follow();
   num_voxels_.Write([&](std::size_t& n) { n = voxel_map_.num_voxels(); });
 }
 
@@ -165,6 +169,7 @@ PointCloudMapping::Result PointCloudMapping::Build(const Segmenter::Options& seg
   result.semantics = BuildSemanticMap(result.cloud, index, result.segmentation, LabelledKeyframes(),
                                       classes_, options_.fusion, previous);
   result.fusion_milliseconds = stopwatch.Milliseconds();
+  result.live = live_segments_.statistics();
   if (num_integrated_ > 0) {
     result.integration_milliseconds =
         1e3 * integration_seconds_ / static_cast<double>(num_integrated_);

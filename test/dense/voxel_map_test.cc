@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/dense/voxel_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -211,6 +213,67 @@ TEST(VoxelMap, SurvivesPosesThatAreNotFinite) {
   EXPECT_EQ(map.num_voxels(), 0U);
   EXPECT_EQ(map.UpdatePoses({{KeyframeId{0}, Rigid3()}}), 1U);
   EXPECT_GT(map.num_voxels(), 1000U);
+}
+
+TEST(VoxelMap, TellsOfEveryVoxelThatComesAndGoes) {
+  VoxelMap map({});
+  map.Integrate(CloudSeenFrom(0, PoseAt(0, 0)), PoseAt(0, 0));
+  map.RecordChanges();
+  std::set<std::uint64_t> known;
+  const auto take = [&] {
+    const VoxelMap::Changes changes = map.TakeChanges();
+    for (const std::uint64_t key : changes.vanished) ASSERT_EQ(known.erase(key), 1U);
+    for (const std::uint64_t key : changes.appeared) ASSERT_TRUE(known.insert(key).second);
+    ASSERT_EQ(known.size(), map.num_voxels());
+  };
+  take();
+  map.Integrate(CloudSeenFrom(1, PoseAt(0.3, 0.1)), PoseAt(0.3, 0.1));
+  take();
+  map.UpdatePoses({{KeyframeId{1}, PoseAt(0.5, 0.1)}});
+  take();
+  map.Remove(KeyframeId{0});
+  take();
+  map.Remove(KeyframeId{1});
+  take();
+}
+
+TEST(VoxelMap, TellsNothingOfWhatWentAndCameBack) {
+  VoxelMap map({});
+  map.RecordChanges();
+  map.Integrate(CloudSeenFrom(0, PoseAt(0, 0)), PoseAt(0, 0));
+  map.TakeChanges();
+  map.UpdatePoses({{KeyframeId{0}, PoseAt(3e-6, 0)}}, 0.0);
+  EXPECT_LT(map.TakeChanges().appeared.size(), map.num_voxels() / 100);
+}
+
+TEST(VoxelMap, TellsWherePointsOfAMovedKeyframeWent) {
+  VoxelMap map({});
+  map.RecordChanges();
+  map.Integrate(CloudSeenFrom(0, PoseAt(0, 0)), PoseAt(0, 0));
+  map.TakeChanges();
+  const Rigid3 moved = {PoseAt(0, 0).rotation,
+                        PoseAt(0, 0).translation + Eigen::Vector3d(0.8, 0, 0)};
+  map.UpdatePoses({{KeyframeId{0}, moved}});
+  const VoxelMap::Changes changes = map.TakeChanges();
+  ASSERT_GT(changes.moved.size(), 100U);
+  const auto step =
+      static_cast<std::int64_t>(VoxelKey::Pack({101, 0, 0}) - VoxelKey::Pack({1, 0, 0}));
+  std::size_t num_exact = 0;  // Others crossed a border by rounding.
+  for (const auto& [from, to] : changes.moved) {
+    num_exact += static_cast<std::int64_t>(to - from) == step ? 1 : 0;
+  }
+  EXPECT_GT(num_exact, changes.moved.size() * 99 / 100);
+}
+
+TEST(VoxelMap, ExtractsTheVoxelsAskedFor) {
+  VoxelMap map({});
+  map.RecordChanges();
+  map.Integrate(CloudSeenFrom(0, PoseAt(0, 0)), PoseAt(0, 0));
+  std::vector<std::uint64_t> keys = map.TakeChanges().appeared;
+  std::sort(keys.begin(), keys.end());
+  EXPECT_TRUE(SameBytes(map.Extract(keys), map.Extract()));
+  const std::vector<std::uint64_t> unknown = {VoxelKey::Pack({9999, 0, 0})};
+  EXPECT_FALSE(map.Extract(unknown).positions.at(0).allFinite());
 }
 
 TEST(VoxelMapOptions, RefuseAVoxelOfNoSize) {

@@ -116,6 +116,42 @@ TEST_P(PointCloudMappingTest, DetectionsOfAnUnknownKeyframeDoNoHarm) {
   EXPECT_GT(mapping_.Finish().cloud.size(), 100u);
 }
 
+TEST_P(PointCloudMappingTest, ShowsTheSegmentsWhileTheMapGrows) {
+  PointCloudMapping::Options options = Options();
+  options.voxels.voxel_size = 0.04;  // The small camera's points are far apart.
+  options.segmentation.supervoxels.voxel_size = 0.04;
+  options.segmentation.supervoxels.seed_spacing = 0.2;
+  PointCloudMapping mapping(GetParam(), options, Camera(), ClassTable(), LookUp());
+  mapping.RequestLiveMap();
+  SetPose(0, {0, 0, 0});
+  ASSERT_TRUE(mapping.InsertKeyframe(KeyframeId{0}, wall_.Image(0)));
+  const PointCloudMapping::Result result = mapping.Finish();
+  EXPECT_EQ(result.live.num_keyframes, 1U);
+  const std::shared_ptr<const LiveMap> live = mapping.live_map();
+  ASSERT_NE(live, nullptr);
+  EXPECT_EQ(live->cloud.positions, result.cloud.positions);
+  // The wall is one segment, then as in the end.
+  EXPECT_THAT(result.segmentation.segment_of_point, ::testing::Each(1U));
+  EXPECT_EQ(live->segment_of_point, result.segmentation.segment_of_point);
+}
+
+TEST_P(PointCloudMappingTest, LiveSegmentsDoNotChangeTheResult) {
+  PointCloudMapping::Options options = Options();
+  options.live.enabled = false;
+  PointCloudMapping without(GetParam(), options, Camera(), ClassTable(), LookUp());
+  for (std::uint32_t keyframe = 0; keyframe < 3; ++keyframe) {
+    SetPose(keyframe, {0.05 * keyframe, 0, 0});
+    ASSERT_TRUE(Insert(keyframe));
+    const int image = static_cast<int>(keyframe);
+    ASSERT_TRUE(without.InsertKeyframe(KeyframeId{keyframe}, wall_.Image(image)));
+  }
+  const PointCloudMapping::Result a = mapping_.Finish();
+  const PointCloudMapping::Result b = without.Finish();
+  EXPECT_EQ(a.cloud.positions, b.cloud.positions);
+  EXPECT_EQ(a.segmentation.segment_of_point, b.segmentation.segment_of_point);
+  EXPECT_EQ(without.live_map(), nullptr);
+}
+
 INSTANTIATE_TEST_SUITE_P(Threading,
                          PointCloudMappingTest,
                          ::testing::Values(Threading::kInline, Threading::kWorkers),

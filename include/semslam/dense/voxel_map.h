@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/id.h"
@@ -55,6 +57,22 @@ class VoxelMap {
 
   // The voxels seen well enough, in the order of their keys: the same map gives the same bytes.
   MapCloud Extract() const;
+  // Those of the keys (VoxelKey::Pack), one point for each in their order; not finite for a voxel
+  // that is not there or not seen well enough.
+  MapCloud Extract(std::span<const std::uint64_t> keys) const;
+
+  // What TakeChanges tells, in an order that is the same for the same calls. A voxel that vanishes
+  // and comes again while the map is compacted in between is told twice, as vanished and appeared.
+  struct Changes {
+    std::vector<std::uint64_t> appeared;
+    std::vector<std::uint64_t> vanished;
+    // From which voxel to which some of a moved keyframe's points went.
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> moved;
+  };
+  // From now on the changes are kept for TakeChanges; all voxels that are there have appeared.
+  void RecordChanges();
+  // Since the last time.
+  Changes TakeChanges();
 
   bool Contains(KeyframeId id) const { return keyframes_.contains(id); }
   std::size_t num_keyframes() const { return keyframes_.size(); }
@@ -76,7 +94,15 @@ class VoxelMap {
   void Subtract(const Entry& entry);
   double Shift(const Entry& entry, const Rigid3& T_world_camera) const;
 
+  void Record(std::uint64_t key);
+  void RecordMove(const Entry& entry, const Rigid3& T_world_camera);
+  void FindChanges();
+  void CompactIfSparse();
+
   Options options_;
+  bool records_changes_ = false;
+  std::vector<std::uint32_t> changed_;  // Numbers of voxels that were filled or emptied.
+  Changes changes_;
   std::map<KeyframeId, Entry> keyframes_;
   std::unique_ptr<VoxelTable> table_;
 };

@@ -21,6 +21,7 @@
 #include "semslam/dense/keyframe_cloud.h"
 #include "semslam/dense/voxel_map.h"
 #include "semslam/geometry/rigid3.h"
+#include "semslam/pipeline/live_segments.h"
 #include "semslam/segmentation/segmenter.h"
 #include "semslam/semantics/semantic_map.h"
 
@@ -34,6 +35,7 @@ class PointCloudMapping {
     KeyframeCloud::Options cloud;
     VoxelMap::Options voxels;
     Segmenter::Options segmentation;
+    LiveSegments::Options live;
     FusionOptions fusion;
     std::size_t queue_capacity =
         32;  // Keyframes and detections waiting; the producer of more waits.
@@ -53,6 +55,7 @@ class PointCloudMapping {
     Segmentation segmentation;
     SemanticMap semantics;
     double integration_milliseconds = 0;   // Mean, a keyframe.
+    LiveSegments::Statistics live;
     double segmentation_milliseconds = 0;  // Of the final pass.
     double fusion_milliseconds = 0;        // Of the final pass.
   };
@@ -90,6 +93,9 @@ class PointCloudMapping {
   void RequestPreview();
   // The newest one; null before the first.
   std::shared_ptr<const Result> preview() const;
+  // The map with its segments, as of some keyframe ago: see LiveSegments. Any thread may call both.
+  void RequestLiveMap() { live_segments_.RequestMap(); }
+  std::shared_ptr<const LiveMap> live_map() const { return live_segments_.map(); }
 
   std::size_t queue_size() const { return stage_.queue_size(); }
   std::size_t num_voxels() const {
@@ -128,6 +134,7 @@ class PointCloudMapping {
   const PlaceLookup look_up_;
   // The stage's own, until it has finished.
   VoxelMap voxel_map_;
+  LiveSegments live_segments_;
   std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds_;
   std::map<KeyframeId, std::vector<Detection>> detections_;
   // What made the newest preview.

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "semslam/segmentation/segmenter.h"
+
+namespace semslam {
+
+// Segments of a voxel map while it grows: again and again the region that has changed most is
+// segmented anew, and its segments get the ids of those they take the place of. An id stays with
+// its segment while that grows; of segments that turn out to be one the oldest id, which is the
+// least, is kept. What a step costs follows the size of a region, not that of the map. Voxels go by
+// 64-bit keys: x, y, z in 21 bits each, x in the high ones. Same calls, same ids. Not thread-safe.
+class LiveSegmenter {
+ public:
+  struct Options {
+    Segmenter::Options segmentation;
+    int block_size = 16;             // Voxels of a cube's side; the map is kept in such cubes.
+    std::size_t max_voxels = 20000;  // Of a region.
+    // How many voxels of a block must have appeared or vanished, and their share in it, before it
+    // is worth a step; so is a block most of which is new.
+    std::size_t min_changed = 16;
+    double min_changed_share = 0.05;
+    void Validate() const;  // Throws std::invalid_argument.
+  };
+
+  struct Changes {
+    std::vector<std::uint64_t> appeared;
+    std::vector<std::uint64_t> vanished;
+    // From where to where some of the map's points were moved: they take their ids with them.
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> moved;
+  };
+
+  // Some blocks of the map.
+  struct Region {
+    std::vector<std::uint64_t> voxels;  // Their keys, block by block.
+    std::vector<std::uint64_t> blocks;  // Ascending.
+    bool empty() const { return blocks.empty(); }
+  };
+
+  explicit LiveSegmenter(const Options& options);
+
+  // Voxels that appeared but are known, or vanished but are not, are no change.
+  void Update(const Changes& changes);
+
+  // What lies around the block that has changed most; empty if nothing much has changed.
+  Region NextRegion() const;
+  // The whole map: for when all of it has moved.
+  Region WholeMap() const;
+
+  // Segments the region anew; `cloud` has one point for each of its voxels, in their order, not
+  // finite for one that is not to be taken. At the region's border, where what lies beyond could
+  // tell otherwise, all stays as it was.
+  void Segment(const Region& region, const PointCloudView& cloud);
+
+  // 0 for voxels that belong to none or are not known.
+  SegmentId IdOf(std::uint64_t voxel) const;
+  std::size_t num_segments() const;
+  std::size_t num_voxels() const { return num_voxels_; }
+
+ private:
+  struct Block {
+    std::vector<std::pair<std::uint64_t, SegmentId>> voxels;  // Ascending by key.
+    std::size_t num_changed = 0;                              // Since it was segmented.
+  };
+  class Matching;
+  class BlockFinder;
+
+  std::uint64_t BlockOf(std::uint64_t voxel) const;
+  std::size_t ChangeOf(const Block& block) const;  // 0: not worth a step.
+  Region Collect(std::vector<std::uint64_t> blocks) const;
+  bool IsInside(std::uint64_t block, const Region& region) const;
+  SegmentId Resolve(SegmentId id) const;
+  void Join(SegmentId a, SegmentId b);
+  void SetId(std::pair<std::uint64_t, SegmentId>& voxel, SegmentId id);
+
+  Options options_;
+  int block_bits_ = 0;
+  std::map<std::uint64_t, Block> blocks_;
+  std::size_t num_voxels_ = 0;
+  // By id, first that of no segment: the id it was joined to, or itself; and its voxels.
+  std::vector<SegmentId> joined_to_ = {0};
+  std::vector<std::size_t> num_voxels_of_ = {0};
+};
+
+}  // namespace semslam
