@@ -54,7 +54,7 @@ class PointCloudMapping {
     MapCloud cloud;
     Segmentation segmentation;
     SemanticMap semantics;
-    double integration_milliseconds = 0;   // Mean, a keyframe.
+    double integration_milliseconds = 0;  // Mean, a keyframe.
     LiveSegments::Statistics live;
     double segmentation_milliseconds = 0;  // Of the final pass.
     double fusion_milliseconds = 0;        // Of the final pass.
