@@ -49,4 +49,9 @@ void WritePly(const std::filesystem::path& path, const CloudView& cloud);
 // out. Throws InputError that says what is wrong with the file.
 CloudColumns ReadPcd(const std::filesystem::path& path);
 
+// Reads the vertex properties x y z, nx ny nz, red green blue and label of a PLY file (ascii or
+// binary) whose first element is vertex; the rest is passed over, and points without a finite
+// position left out. Throws InputError that says what is wrong with the file.
+CloudColumns ReadPly(const std::filesystem::path& path);
+
 }  // namespace semslam
