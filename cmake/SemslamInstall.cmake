@@ -31,6 +31,9 @@ set(semslam_packages
   "^yaml-cpp|yaml-cpp"
   "^nlohmann_json::|nlohmann_json 3.10"
   "^OpenNI2::|OpenNI2"
+  "^OpenGL::|OpenGL COMPONENTS @COMPONENTS@"
+  "^glfw$|glfw3 3.3"
+  "^ImGui::|ImGui"
   "^(Boost::headers|Boost::boost)$|Boost"
   "^Boost::|Boost COMPONENTS @COMPONENTS@"
   "^opencv_|OpenCV 4.5 COMPONENTS @COMPONENTS@"
@@ -95,4 +98,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/semslam-config-version.cm
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/semslam-config.cmake ${PROJECT_BINARY_DIR}/semslam-config-version.cmake
   DESTINATION ${package_dir})
-install(FILES Thirdparty/cmake/FindOpenNI2.cmake DESTINATION ${package_dir})
+install(FILES Thirdparty/cmake/FindImGui.cmake Thirdparty/cmake/FindOpenNI2.cmake DESTINATION ${package_dir})

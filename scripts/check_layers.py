@@ -12,7 +12,7 @@ import re
 import sys
 import tempfile
 
-HEAVY = re.compile(r'^(pcl/|ceres/|vtk|embree\d*/|openni2?/|OpenNI\.h|Driver/OniDriverAPI\.h)', re.I)
+HEAVY = re.compile(r'^(pcl/|ceres/|vtk|embree\d*/|GL/|GLFW/|EGL/|imgui|openni2?/|OpenNI\.h|Driver/OniDriverAPI\.h)', re.I)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 SUFFIXES = ('.h', '.hpp', '.cc', '.cpp')
 

@@ -7,19 +7,21 @@
 #   scripts/demo.sh [options]
 #     --sequence DIR               a folder of the TUM RGB-D benchmark (rgb/ depth/ rgb.txt depth.txt)
 #     --settings FILE              its camera; known by itself for freiburg1, 2, 3 and rendered clips
-#     --network CFG WEIGHTS NAMES  a Darknet detector; without one, DIR/detections serves if it is
-#                                  there, else the map has colours and segments but no classes
+#     --network CFG WEIGHTS NAMES  a Darknet detector; default: config/detector, which finds cups,
+#                                  keyboards, monitors, mice and teddy bears and was trained on
+#                                  rendered desks only
 #     --output DIR                 default: demo_output in the project's folder
 #     --frames N                   length of the rendered clip, default 150
 set -euo pipefail
 
-usage() { sed -n '5,14s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '5,15s/^# \{0,1\}//p' "$0"; }
 fail() { echo "demo.sh: $1" >&2; exit 1; }
 usage_error() { echo "demo.sh: $1 (--help shows the usage)" >&2; exit 2; }
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 sequence="" settings="" output="$root/demo_output" frames=150
-network=()
+detector="$root/config/detector/desk"
+network=(--network "$detector.cfg" "$detector.weights" "$detector.names")
 while (($#)); do
   case "$1" in
     --help | -h) usage; exit 0 ;;
@@ -76,19 +78,11 @@ if [[ -z "$sequence" ]]; then
 fi
 associations=-
 [[ ! -f "$sequence/associations.txt" ]] || associations="$sequence/associations.txt"
-labels=()
-if ((${#network[@]})); then
-  labels=("${network[@]}")
-elif [[ -d "$sequence/detections" ]]; then
-  labels=(--detections "$sequence/detections")
-else
-  echo "No --network: the map will have colours and segments but no classes"
-fi
 
 # 2 means: done, but tracking was lost for a part; its summary says so, and there is a map.
 code=0
 "$bin/rgbd_tum" "$root/Vocabulary/orb.voc" "$settings" "$sequence" "$associations" \
-  --output "$output/result" "${labels[@]}" || code=$?
+  --output "$output/result" "${network[@]}" || code=$?
 ((code == 0 || code == 2)) || fail "rgbd_tum ended with exit code $code"
 
 if [[ -f "$sequence/groundtruth.txt" ]]; then

@@ -6,7 +6,8 @@
 # quickly and without a network, if all are there.
 #   scripts/install_dependencies.sh [--with-lint] [--with-browser] [--list] [--help]
 #     --with-lint     clang-format and clang-tidy as well
-#     --with-browser  Chromium as well, in which the tests look at the report
+#     --with-browser  Chromium and a screen in memory as well, in which the tests look at the
+#                     report and the viewer
 #     --list          print the packages and install nothing
 set -euo pipefail
 
@@ -16,11 +17,13 @@ packages=(
   # Libraries of the project: Thirdparty/README.md says what each is for.
   libceres-dev libcli11-dev libeigen3-dev libembree-dev libopencv-dev libopenni2-dev
   libpcl-dev libsuitesparse-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev
+  # The viewer; the last two draw where there is no graphics card, and so in the tests.
+  libegl-dev libglfw3-dev libimgui-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri fonts-dejavu-core
   # Tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev
 )
 lint_packages=(clang-format-14 clang-tidy-14)
-browser_packages=(chromium chromium-driver)
+browser_packages=(chromium chromium-driver xvfb)
 
 list_only=false
 for argument in "$@"; do
@@ -28,7 +31,7 @@ for argument in "$@"; do
     --with-lint) packages+=("${lint_packages[@]}") ;;
     --with-browser) packages+=("${browser_packages[@]}") ;;
     --list) list_only=true ;;
-    --help | -h) sed -n '5,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --help | -h) sed -n '5,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "$0: unknown option $argument (--help shows the usage)" >&2; exit 2 ;;
   esac
 done

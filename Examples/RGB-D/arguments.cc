@@ -12,9 +12,10 @@
 
 #include "semslam/base/error.h"
 #include "semslam/io/detection_recorder.h"
-#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/network_options.h"
 #include "semslam/semantics/recorded_detector.h"
 
+#include "network_argument.h"
 #include "printable.h"
 
 namespace {
@@ -58,8 +59,9 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
   app.add_option("--output", arguments.output, "Folder for the results (default: here)")
       ->type_name("DIR");
   CLI::Option* network =
-      app.add_option("--network", arguments.network, "Darknet network that finds the objects")
-          ->expected(3)
+      app.add_option("--network", arguments.network,
+                     "Network that finds the objects: of Darknet, or FILE.onnx NAMES")
+          ->expected(2, 3)
           ->type_name("CFG WEIGHTS NAMES");
   CLI::Option* detections =
       app.add_option("--detections", arguments.detections,
@@ -78,6 +80,8 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
       app.add_flag("--save-detections", arguments.save_detections,
                    "Write the keyframes with their boxes, and what --detections reads, into the "
                    "folder detections of the results");
+  app.add_flag("--drop-late", arguments.drop_late,
+               "At the end, leave keyframes that still wait for the detector without labels");
   app.add_flag("--no-semantics", arguments.no_semantics, "Neither detector nor classes")
       ->excludes(network)
       ->excludes(detections)
@@ -95,6 +99,10 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
   CLI::Option* sequential = app.add_flag("--sequential", arguments.sequential,
                                          "Everything in one thread: two runs write the same bytes");
   app.add_flag("--realtime", arguments.realtime, realtime)->excludes(sequential);
+  app.add_flag("--viewer", arguments.viewer,
+               "Show the run in a window; closing it does not end the run");
+  app.add_flag("--viewer-stays", arguments.viewer_stays,
+               "The same, and keep the window after the run until it is closed");
 }
 
 namespace {
@@ -113,15 +121,11 @@ std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& argume
         options, semslam::ClassTable::FromFile(arguments.detections / kNamesInDetections)
                      .WithInterest(interest));
   }
-  semslam::DarknetDetector::Options options;
+  semslam::NetworkOptions options;
   std::filesystem::path names = settings.names;
   options.config = settings.config;
   options.weights = settings.weights;
-  if (!arguments.network.empty()) {
-    options.config = arguments.network[0];
-    options.weights = arguments.network[1];
-    names = arguments.network[2];
-  }
+  if (!arguments.network.empty()) names = TakeNetwork(arguments.network, options);
   if (options.config.empty()) {
     if (interest.empty()) return nullptr;
     throw semslam::InputError(
@@ -131,8 +135,11 @@ std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& argume
   options.min_class_score = std::min(options.min_class_score, score);
   options.nms_threshold = static_cast<float>(settings.nms_threshold);
   options.input_size = settings.input_size;
-  return std::make_unique<semslam::DarknetDetector>(
-      options, semslam::ClassTable::FromFile(names).WithInterest(interest));
+  options.letterbox = settings.letterbox;
+  options.backend = settings.backend;
+  options.target = settings.target;
+  return semslam::MakeNetworkDetector(options,
+                                      semslam::ClassTable::FromFile(names).WithInterest(interest));
 }
 
 }  // namespace

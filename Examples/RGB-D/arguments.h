@@ -21,7 +21,7 @@ struct MappingArguments {
   std::filesystem::path vocabulary;
   std::filesystem::path settings;
   std::filesystem::path output = ".";
-  std::vector<std::string> network;  // CFG WEIGHTS NAMES, or empty.
+  std::vector<std::string> network;  // CFG WEIGHTS NAMES, FILE.onnx NAMES, or empty.
   std::filesystem::path detections;  // Folder of recorded detections, or empty.
   std::vector<std::string> classes;  // Of interest; empty: as the settings say.
   std::optional<double> score;
@@ -30,8 +30,11 @@ struct MappingArguments {
   bool localization = false;
   bool no_semantics = false;
   bool save_detections = false;
+  bool drop_late = false;
   bool sequential = false;
   bool realtime = false;
+  bool viewer = false;        // A window while it runs,
+  bool viewer_stays = false;  // and afterwards, until it is closed.
 };
 
 // An application with --help and --version in this project's form.

@@ -53,12 +53,14 @@ void KeyframeGallery::AddDetections(semslam::TimeNs time,
       [&](Content& content) { content.detections.insert_or_assign(time, std::move(detections)); });
 }
 
-std::map<semslam::TimeNs, KeyframeGallery::Picture> KeyframeGallery::Take() {
-  return content_.Write([](Content& content) {
+std::map<semslam::TimeNs, KeyframeGallery::Picture> KeyframeGallery::Copy() const {
+  return content_.Read([](const Content& content) {
     std::map<semslam::TimeNs, Picture> pictures;
-    for (auto& [time, jpeg] : content.jpegs)
-      pictures[time] = {std::move(jpeg), std::move(content.detections[time])};
-    content = {};
+    for (const auto& [time, jpeg] : content.jpegs) {
+      const auto found = content.detections.find(time);
+      pictures[time] = {jpeg, {}};
+      if (found != content.detections.end()) pictures[time].detections = found->second;
+    }
     return pictures;
   });
 }

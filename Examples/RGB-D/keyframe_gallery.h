@@ -28,8 +28,8 @@ class KeyframeGallery {
   // Before or after the picture.
   void AddDetections(semslam::TimeNs time, std::vector<semslam::Detection> detections);
 
-  // By the keyframes' times, and emptied here.
-  std::map<semslam::TimeNs, Picture> Take();
+  // By the keyframes' times.
+  std::map<semslam::TimeNs, Picture> Copy() const;
 
  private:
   struct Content {

@@ -25,6 +25,8 @@ std::vector<semslam::ObjectRecord> ToRecords(const std::vector<semslam::Semantic
     record.label = LabelOfClass(object.class_id);
     record.confidence = object.confidence;
     record.num_views = object.num_views;
+    record.supporting_segment = object.supporting_segment;
+    record.supporting_object = object.supporting_object;
     record.num_points = object.num_points;
     record.centroid = object.centroid;
     record.box = object.box;

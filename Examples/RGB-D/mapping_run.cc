@@ -3,6 +3,7 @@
 
 #include "mapping_run.h"
 
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "semslam/place/vocabulary.h"
 
 #include "interrupt.h"
+#include "live_view.h"
 #include "opencv_threads.h"
 #include "printable.h"
 #include "result_files.h"
@@ -23,14 +25,30 @@ namespace {
 
 constexpr double kMaxLostShare = 0.05;  // Of the frames; more is exit code 2.
 
+// Null without --viewer. Throws if it was not built in.
+std::shared_ptr<LiveState> MakeLiveState(const MappingArguments& arguments) {
+  if (!arguments.viewer && !arguments.viewer_stays) return nullptr;
+  if (const std::optional<std::string> why = WhyNoViewer()) throw semslam::InputError(*why);
+  auto state = std::make_shared<LiveState>();
+  state->StartWithLocalizationOnly(arguments.localization);
+  return state;
+}
+
 semslam::System::Options SystemOptions(const MappingArguments& arguments,
                                        const semslam::Settings& settings,
                                        const std::shared_ptr<KeyframeGallery>& gallery,
+                                       const std::shared_ptr<LiveState>& live,
                                        ProgressLine& progress) {
   semslam::System::Options options;
   options.threading =
       arguments.sequential ? semslam::Threading::kInline : semslam::Threading::kWorkers;
   options.detector = Watch(MakeDetector(arguments, settings.detector), gallery);
+  if (live != nullptr) {
+    options.detector = ShowIn(live, std::move(options.detector));
+    options.on_step = [live](semslam::Step step, double seconds) {
+      live->CountStep(step, seconds);
+    };
+  }
   options.localization_only = arguments.localization;
   options.log = [&progress](semslam::LogLevel, std::string_view, std::string_view message) {
     progress.Report(std::string(message));
@@ -39,7 +57,8 @@ semslam::System::Options SystemOptions(const MappingArguments& arguments,
 }
 
 bool IsTooMuchLost(const RunStatistics& run) {
-  const auto num_missed = static_cast<double>(run.num_lost() + run.num_unreadable);
+  const auto num_missed =
+      static_cast<double>(run.num_lost() + run.num_left_out + run.num_unreadable);
   return num_missed > kMaxLostShare * static_cast<double>(run.num_frames + run.num_unreadable);
 }
 
@@ -49,6 +68,32 @@ std::string RemainingSteps(const semslam::System::Status& status) {
   if (status.detector_queue > 0)
     text += std::to_string(status.detector_queue) + " images to label, ";
   return text + "segments, objects, files";
+}
+
+// Which keyframes that wait for the detector still get labels.
+semslam::System::PendingLabels AtTheEnd(const MappingArguments& arguments, bool interrupted) {
+  if (interrupted) return semslam::System::PendingLabels::kDropAndBreakOff;
+  return arguments.drop_late ? semslam::System::PendingLabels::kDrop
+                             : semslam::System::PendingLabels::kFinish;
+}
+
+// A window on the system, tied to the run's loop. Null without --viewer.
+std::unique_ptr<LiveView> OpenLiveView(const LiveView::Setup& setup,
+                                       ProgressLine& progress,
+                                       RunOptions* options) {
+  if (setup.state == nullptr) return nullptr;
+  auto view = std::make_unique<LiveView>(setup);
+  options->before_frame = [state = setup.state, system = setup.system, view = view.get(),
+                           should_stop = options->should_stop, &progress] {
+    state->ObeyBetweenFrames(*system, should_stop);
+    if (const std::optional<std::string> failure = view->TakeFailure())
+      progress.Report("the run goes on without a viewer: " + *failure);
+  };
+  options->on_tracked = [state = setup.state](const semslam::RgbdImagePtr& image,
+                                              const semslam::Tracking::Result& result) {
+    state->Show(image, result);
+  };
+  return view;
 }
 
 // What went wrong, if something did.
@@ -77,7 +122,11 @@ int MapFrames(const MappingArguments& arguments,
   const auto vocabulary =
       std::make_shared<const semslam::Vocabulary>(semslam::Vocabulary::Load(arguments.vocabulary));
   const auto gallery = std::make_shared<KeyframeGallery>();
-  semslam::System::Options system_options = SystemOptions(arguments, settings, gallery, progress);
+  const std::shared_ptr<LiveState> live = MakeLiveState(arguments);
+  semslam::System::Options system_options =
+      SystemOptions(arguments, settings, gallery, live, progress);
+  const semslam::ClassTable classes =
+      system_options.detector ? system_options.detector->classes() : semslam::ClassTable();
   semslam::CheckOutputFolder(arguments.output);
   if (!arguments.save_map.empty())
     semslam::CheckOutputFolder(std::filesystem::absolute(arguments.save_map).parent_path());
@@ -87,16 +136,28 @@ int MapFrames(const MappingArguments& arguments,
   options.fps = settings.fps;
   options.on_keyframe = [&](const semslam::RgbdImage& image) { gallery->Add(image); };
   options.should_stop = [] { return interrupt_requested != 0; };
-  const RunStatistics run = Run(source, system, options, progress);
+  const std::unique_ptr<LiveView> window =
+      OpenLiveView({.state = live,
+                    .system = &system,
+                    .settings = settings,
+                    .classes = classes,
+                    .gallery = gallery,
+                    .output = arguments.output,
+                    .title = origin.name + " - " + origin.program},
+                   progress, &options);
+  RunStatistics run = Run(source, system, options, progress);
+  if (live != nullptr) live->SetEnded();
   // Nothing was mapped: results of an earlier run stay as they are.
   if (run.num_frames == 0) {
     throw semslam::InputError(
         run.interrupted ? "interrupted before the first frame: nothing to write" : why_no_frames());
   }
   progress.ShowStep(RemainingSteps(system.status()));
-  const semslam::PointCloudMapping::Result map =
-      system.Shutdown(run.interrupted ? semslam::System::PendingLabels::kDrop
-                                      : semslam::System::PendingLabels::kFinish);
+  const auto result = std::make_shared<const semslam::PointCloudMapping::Result>(
+      system.Shutdown(AtTheEnd(arguments, run.interrupted)));
+  const semslam::PointCloudMapping::Result& map = *result;
+  if (window != nullptr) window->ShowResult(result);
+  run.LeaveOut(system.CameraTrajectory().size());
   std::string error = WriteFiles(arguments, system, map);
   try {
     const MapView view(map);
@@ -107,6 +168,10 @@ int MapFrames(const MappingArguments& arguments,
   }
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);
+  if (window != nullptr && arguments.viewer_stays) {
+    std::fflush(stdout);  // Who reads the summary need not wait for the window.
+    window->WaitUntilClosed(options.should_stop);
+  }
   if (!error.empty()) throw semslam::InputError(error);
   return IsTooMuchLost(run) ? 2 : 0;
 }

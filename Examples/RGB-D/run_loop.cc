@@ -17,23 +17,12 @@
 
 #include "format_line.h"
 #include "quantile.h"
+#include "tracking_words.h"
 
 namespace {
 
 constexpr std::size_t kMaxReports = 10;      // Of unreadable frames.
 constexpr std::size_t kFramesPerSample = 5;  // Of the queues.
-
-const char* StateName(semslam::TrackingState state) {
-  switch (state) {
-    case semslam::TrackingState::kNotInitialized:
-      return "waiting";
-    case semslam::TrackingState::kTracking:
-      return "tracking";
-    case semslam::TrackingState::kLost:
-      return "lost";
-  }
-  return "";
-}
 
 // How fast and how late the last frames were.
 class RecentFrames {
@@ -116,6 +105,7 @@ class Runner {
 
   RunStatistics Run() {
     while (true) {
+      if (options_.before_frame) options_.before_frame();
       if (options_.should_stop()) break;
       std::optional<semslam::RgbdImage> image;
       try {
@@ -156,6 +146,7 @@ class Runner {
       recent_.Add(latency);
     }
     ++statistics_.num_frames;
+    if (options_.on_tracked) options_.on_tracked(shared_image, result);
     if (options_.on_keyframe && result.new_keyframe) options_.on_keyframe(*shared_image);
     if (statistics_.num_frames % kFramesPerSample == 0) SampleQueues();
     if (result.map_was_reset) statistics_.num_tracked = 0;  // Their poses went with the map.

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -33,6 +34,7 @@ struct QueueSample {
 struct RunStatistics {
   std::size_t num_frames = 0;  // Read, tracked or not.
   std::size_t num_tracked = 0;
+  std::size_t num_left_out = 0;    // Tracked where nothing ties them to the map; see LeaveOut.
   std::size_t num_unreadable = 0;  // Skipped.
   // With kept frame times: how many started more than one frame after they were due.
   std::optional<std::size_t> num_late;
@@ -42,7 +44,12 @@ struct RunStatistics {
   double seconds = 0;
   bool interrupted = false;
 
-  std::size_t num_lost() const { return num_frames - num_tracked; }
+  std::size_t num_lost() const { return num_frames - num_tracked - num_left_out; }
+  // Of the frames that were tracked, only so many have a pose in the map.
+  void LeaveOut(std::size_t num_in_map) {
+    num_left_out = num_tracked - std::min(num_tracked, num_in_map);
+    num_tracked -= num_left_out;
+  }
 };
 
 // What a camera knows of itself, for the frame that it gave last.
@@ -58,6 +65,9 @@ struct RunOptions {
   std::optional<LiveFeed> live;                                // If the source is a camera.
   std::function<void(const semslam::RgbdImage&)> on_frame;     // Gets every frame; may be empty.
   std::function<void(const semslam::RgbdImage&)> on_keyframe;  // The same for keyframes.
+  std::function<void()> before_frame;  // Between two frames; may wait, may be empty.
+  // After each frame, with what tracking made of it; may be empty.
+  std::function<void(const semslam::RgbdImagePtr&, const semslam::Tracking::Result&)> on_tracked;
 };
 
 // Feeds all frames of the source to the system. An unreadable frame is counted and skipped, and

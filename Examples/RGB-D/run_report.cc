@@ -12,7 +12,7 @@
 #include "semslam/eval/trajectory_error.h"
 
 #include "format_line.h"
-#include "peak_memory.h"
+#include "memory_use.h"
 #include "quantile.h"
 #include "result_files.h"
 
@@ -80,11 +80,13 @@ void AddCounts(const RunStatistics& run,
   report->highlights.push_back({"objects", Count(map.semantics.objects.size())});
   report->facts = {{"frames tracked", Count(run.num_tracked)},
                    {"frames lost", Count(run.num_lost())},
+                   {"frames left out, apart from the map", Count(run.num_left_out)},
                    {"frames unreadable", Count(run.num_unreadable)},
                    {"camera path", Line("%.2f m", PathLength(report->trajectory))},
                    {"keyframes", Count(status.num_keyframes)},
                    {"landmarks", Count(status.num_landmarks)},
                    {"loops closed", Count(status.num_loops)},
+                   {"pieces of the map joined", Count(status.num_joins)},
                    {"place found again after a loss", Count(status.num_relocalizations)},
                    {"map points", Count(map.cloud.size())},
                    {"distance of map points", Line("%.0f mm", 1e3 * map.cloud.voxel_size)},
@@ -140,6 +142,8 @@ semslam::ReportSpeed MakeSpeed(const RunStatistics& run,
   if (system.has_detector()) {
     speed.facts.push_back(
         {"detector, an image", Line("%.1f ms", system.detector_statistics().mean_milliseconds)});
+    speed.facts.push_back({"images that waited for it",
+                           Line("%zu at most", system.detector_statistics().longest_queue)});
   }
   if (run.num_late)
     speed.facts.push_back(
@@ -183,9 +187,9 @@ std::vector<ReportFact> Options(const RunOrigin& origin, const MappingArguments&
 }
 
 std::vector<semslam::ReportKeyframe> Keyframes(const semslam::System& system,
-                                               KeyframeGallery& gallery) {
+                                               const KeyframeGallery& gallery) {
   std::vector<semslam::ReportKeyframe> keyframes;
-  std::map<semslam::TimeNs, KeyframeGallery::Picture> pictures = gallery.Take();
+  std::map<semslam::TimeNs, KeyframeGallery::Picture> pictures = gallery.Copy();
   for (const auto& pose : system.KeyframeTrajectory()) {
     const auto picture = pictures.find(pose.time);
     if (picture == pictures.end()) continue;
@@ -204,7 +208,7 @@ ReportData MakeReport(const RunOrigin& origin,
                       const semslam::System& system,
                       const semslam::PointCloudMapping::Result& map,
                       const MapView& view,
-                      KeyframeGallery& gallery) {
+                      const KeyframeGallery& gallery) {
   ReportData report;
   report.title = origin.name;
   report.program = origin.program;

@@ -33,4 +33,4 @@ semslam::ReportData MakeReport(const RunOrigin& origin,
                                const semslam::System& system,
                                const semslam::PointCloudMapping::Result& map,
                                const MapView& view,
-                               KeyframeGallery& gallery);
+                               const KeyframeGallery& gallery);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "peak_memory.h"
+#include "memory_use.h"
 #include "printable.h"
 #include "quantile.h"
 
@@ -35,8 +35,9 @@ void PrintSemantics(const semslam::System& system, const semslam::PointCloudMapp
   const std::string classes = CountClasses(map.semantics);
   std::printf("objects               %zu%s%s\n", map.semantics.objects.size(),
               classes.empty() ? "" : ": ", classes.c_str());
-  std::printf("images labelled       %zu of %zu keyframes, %.1f ms each\n", detector.num_done,
-              detector.num_submitted, detector.mean_milliseconds);
+  std::printf("images labelled       %zu of %zu keyframes, %.1f ms each, at most %zu waited\n",
+              detector.num_done, detector.num_submitted, detector.mean_milliseconds,
+              detector.longest_queue);
   if (detector.num_failed > 0) {
     std::printf("images not labelled   %zu: %s\n", detector.num_failed,
                 Printable(detector.first_error).c_str());
@@ -53,6 +54,10 @@ void PrintSummary(const RunStatistics& run,
   std::printf("frames                %zu tracked, %zu lost, %zu unreadable, in %.1f s%s\n",
               run.num_tracked, run.num_lost(), run.num_unreadable, run.seconds,
               run.interrupted ? " (interrupted)" : "");
+  if (run.num_left_out > 0)
+    std::printf(
+        "left out              %zu frames, in pieces of the map that did not meet the rest\n",
+        run.num_left_out);
   if (run.num_late)
     std::printf("late by over a frame  %zu of %zu frames\n", *run.num_late, run.num_frames);
   if (run.live) {
@@ -68,6 +73,8 @@ void PrintSummary(const RunStatistics& run,
   std::printf("keyframes             %zu\n", status.num_keyframes);
   std::printf("landmarks             %zu\n", status.num_landmarks);
   std::printf("loops closed          %zu\n", status.num_loops);
+  if (status.num_joins > 0)
+    std::printf("pieces joined         %zu, begun after losses in new places\n", status.num_joins);
   if (status.num_relocalizations > 0)
     std::printf("place found again     %zu times after a loss\n", status.num_relocalizations);
   std::printf("map points            %zu, %.1f ms a keyframe\n", map.cloud.size(),

@@ -15,10 +15,10 @@
 #include "semslam/config/settings.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/pipeline/system.h"
-#include "semslam/place/vocabulary.h"
 
 #include "RGB-D/result_files.h"
 #include "run_program.h"
+#include "saved_map.h"
 
 namespace {
 
@@ -26,17 +26,6 @@ struct Arguments {
   std::filesystem::path map;
   std::filesystem::path output;
 };
-
-// Nothing is looked for in the map here, so it needs no words: two that tell nothing.
-std::shared_ptr<const semslam::Vocabulary> NoWords() {
-  using Node = semslam::Vocabulary::Node;
-  return std::make_shared<const semslam::Vocabulary>(
-      2, 1,
-      std::vector<Node>{{.first_child = 1, .num_children = 2},
-                        {.first_child = 0, .num_children = 0},
-                        {.first_child = 1, .num_children = 0}},
-      std::vector<semslam::Descriptor>(3));
-}
 
 void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("MAP", arguments.map, "Map file")->required();
@@ -67,14 +56,11 @@ void Print(const Arguments& arguments,
 
 int Run(const Arguments& arguments) {
   const semslam::Settings settings = semslam::System::ReadMapSettings(arguments.map);
-  semslam::System system(
-      settings, NoWords(),
-      {.threading = semslam::Threading::kInline, .detector = nullptr, .log = {}});
-  system.LoadMap(arguments.map);
+  const std::unique_ptr<semslam::System> system = OpenSavedMap(arguments.map, settings);
   if (!arguments.output.empty()) semslam::CheckOutputFolder(arguments.output);
-  Print(arguments, settings, system);
+  Print(arguments, settings, *system);
   if (arguments.output.empty()) return 0;
-  const std::string error = WriteResults(arguments.output, system, system.Shutdown());
+  const std::string error = WriteResults(arguments.output, *system, system->Shutdown());
   if (!error.empty()) throw semslam::InputError(error);
   std::printf("files                 %s\n",
               std::filesystem::absolute(arguments.output).lexically_normal().c_str());

@@ -16,10 +16,11 @@
 
 #include "semslam/base/check.h"
 #include "semslam/io/atomic_file.h"
+#include "semslam/io/level_frame.h"
+#include "semslam/io/segment_color.h"
 
 #include "io/cloud_columns.h"
 #include "io/point_renderer.h"
-#include "io/segment_color.h"
 
 namespace semslam {
 namespace {
@@ -110,18 +111,10 @@ class Scene {
   }
 
  private:
-  Eigen::Vector3f Up() const {
-    const Eigen::Vector3f camera_up(0, -1, 0);
-    if (map_.up) return map_.up->cast<float>().normalized();
-    return CommonUpNormal(map_.cloud.normals, camera_up).value_or(camera_up);
-  }
-
   ViewCamera MakeCamera(MapPictureView view, const MapPictureOptions& options) const {
-    const Eigen::Vector3f up = Up();
-    // The first camera's view direction, made level.
-    Eigen::Vector3f level = Eigen::Vector3f::UnitZ() - up.z() * up;
-    if (level.norm() < 0.1F) level = -Eigen::Vector3f::UnitY() + up.y() * up;
-    level.normalize();
+    const LevelFrame frame = FindLevelFrame(map_);
+    const Eigen::Vector3f up = frame.up.cast<float>();
+    const Eigen::Vector3f level = frame.forward.cast<float>();
     const int width = options.panel_width * options.supersampling;
     const int height = options.panel_height * options.supersampling;
     if (view == MapPictureView::kTop) {

@@ -40,7 +40,9 @@ Json ToJson(const ObjectRecord& object, const std::vector<ClassRecord>& classes)
           {"num_views", object.num_views},
           {"num_points", object.num_points},
           {"centroid", ToJson(object.centroid)},
-          {"box", ToJson(object.box)}};
+          {"box", ToJson(object.box)},
+          {"supported_by",
+           {{"segment", object.supporting_segment}, {"object", object.supporting_object}}}};
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ Json ToJson(const ObjectRecord& object, const std::vector<ClassRecord>& classes)
 void WriteObjects(const std::filesystem::path& path,
                   const std::vector<ClassRecord>& classes,
                   const std::vector<ObjectRecord>& objects) {
-  Json json = {{"format", "semslam objects 1"},
+  Json json = {{"format", "semslam objects 2"},
                {"units", {{"length", "metre"}, {"confidence", "share in [0, 1]"}}},
                {"frame", "world = camera of the first keyframe: x right, y down, z forward"},
                {"classes", Json::array()},

@@ -42,6 +42,9 @@ ObjectRecord ToObject(const JsonField& json, const std::set<std::uint32_t>& labe
   record.num_points = json["num_points"].Unsigned(std::numeric_limits<std::uint64_t>::max());
   record.centroid = json["centroid"].Vector(3);
   record.box = ToBox(json["box"]);
+  const JsonField support = json["supported_by"];
+  record.supporting_segment = static_cast<std::uint32_t>(support["segment"].Unsigned(kMaxId));
+  record.supporting_object = static_cast<std::uint32_t>(support["object"].Unsigned(kMaxId));
   return record;
 }
 
@@ -49,7 +52,7 @@ ObjectRecord ToObject(const JsonField& json, const std::set<std::uint32_t>& labe
 
 ObjectsFile ReadObjects(const std::filesystem::path& path) {
   const JsonField root = JsonField::FromFile(path);
-  if (root["format"].String() != "semslam objects 1") root["format"].Fail("semslam objects 1");
+  if (root["format"].String() != "semslam objects 2") root["format"].Fail("semslam objects 2");
   ObjectsFile file;
   std::set<std::uint32_t> labels;
   for (const JsonField& item : root["classes"].Items()) {

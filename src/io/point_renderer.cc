@@ -6,44 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "semslam/base/check.h"
 
 namespace semslam {
 namespace {
 
-// Share of the points that may lie outside of each edge of the picture.
-constexpr double kOutsideShare = 0.025;
 constexpr float kMinDepth = 0.05F;  // Metres; nearer points are not drawn.
-
-// The value that only so small a share of the values exceeds.
-float UpperQuantile(std::vector<float>& values, double share) {
-  const std::size_t last = values.size() - 1;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(std::lround((1.0 - share) * static_cast<double>(last)));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-// Along one axis of the picture: where the camera must stand so that the points fit between two
-// lines of slope +-slope through it. A point (x, z) is inside if |x - camera_x| <= slope * (z -
-// camera_z): two lower bounds, of which both are met with equality by the answer.
-struct AxisFit {
-  float position = 0;
-  float depth = 0;
-};
-
-AxisFit FitAxis(const std::vector<Eigen::Vector3f>& points, int axis, float slope) {
-  std::vector<float> right;
-  std::vector<float> left;
-  for (const Eigen::Vector3f& p : points) {
-    right.push_back(p[axis] - slope * p.z());
-    left.push_back(-p[axis] - slope * p.z());
-  }
-  const float right_bound = UpperQuantile(right, kOutsideShare);
-  const float left_bound = UpperQuantile(left, kOutsideShare);
-  return {0.5F * (right_bound - left_bound), -0.5F * (right_bound + left_bound) / slope};
-}
 
 void DrawDisc(const Eigen::Vector2f& center,
               float radius,
@@ -145,70 +115,6 @@ cv::Mat EyeDomeLighting(const cv::Mat& depths, int radius) {
 }
 
 }  // namespace
-
-ViewCamera FitCamera(std::span<const Eigen::Vector3f> positions,
-                     const Eigen::Vector3f& forward,
-                     const Eigen::Vector3f& up,
-                     float field_of_view,
-                     int width,
-                     int height) {
-  ViewCamera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.focal_length = 0.5F * static_cast<float>(width) / std::tan(0.5F * field_of_view);
-  const Eigen::Vector3f z = forward.normalized();
-  const Eigen::Vector3f x = z.cross(up).normalized();
-  camera.R_camera_world << x.transpose(), z.cross(x).transpose(), z.transpose();
-
-  std::vector<Eigen::Vector3f> rotated;
-  for (const Eigen::Vector3f& p : positions) {
-    if (p.allFinite()) rotated.push_back(camera.R_camera_world * p);
-  }
-  SEMSLAM_CHECK(!rotated.empty()) << "no points";
-  constexpr float kUsed = 0.92F;  // Of the picture; the rest is margin.
-  const AxisFit fit_x =
-      FitAxis(rotated, 0, kUsed * 0.5F * static_cast<float>(width) / camera.focal_length);
-  const AxisFit fit_y =
-      FitAxis(rotated, 1, kUsed * 0.5F * static_cast<float>(height) / camera.focal_length);
-  constexpr float kMinDistance = 0.2F;  // Metres, for a cloud of one point.
-  const float depth = std::min(fit_x.depth, fit_y.depth) - kMinDistance;
-  camera.p_world =
-      camera.R_camera_world.transpose() * Eigen::Vector3f(fit_x.position, fit_y.position, depth);
-  return camera;
-}
-
-std::optional<Eigen::Vector3f> CommonUpNormal(std::span<const Eigen::Vector3f> normals,
-                                              const Eigen::Vector3f& about_up) {
-  // Candidates evenly over the sphere (Fibonacci lattice); each normal votes for those within 8
-  // degrees. The average of the winner's normals is the answer.
-  constexpr int kNumCandidates = 1500;
-  const float min_cosine = std::cos(8.0F * 3.14159265F / 180.0F);
-  std::vector<Eigen::Vector3f> candidates;
-  for (int i = 0; i < kNumCandidates; ++i) {
-    const float z = 1.0F - (2.0F * static_cast<float>(i) + 1.0F) / kNumCandidates;
-    const double angle = i * 2.399963229728653;  // Golden angle.
-    const float radius = std::sqrt(1.0F - z * z);
-    const Eigen::Vector3f direction(radius * static_cast<float>(std::cos(angle)),
-                                    radius * static_cast<float>(std::sin(angle)), z);
-    if (direction.dot(about_up.normalized()) > 0.5F) candidates.push_back(direction);
-  }
-  constexpr std::size_t kMaxVoters = 20000;
-  const std::size_t step = std::max<std::size_t>(1, normals.size() / kMaxVoters);
-  std::vector<int> votes(candidates.size());
-  std::vector<Eigen::Vector3f> sums(candidates.size(), Eigen::Vector3f::Zero());
-  for (std::size_t i = 0; i < normals.size(); i += step) {
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (!(normals[i].dot(candidates[k]) > min_cosine)) continue;
-      ++votes[k];
-      sums[k] += normals[i];
-    }
-  }
-  const auto best = std::max_element(votes.begin(), votes.end());
-  constexpr double kMinShare = 0.02;
-  const double num_voters = static_cast<double>(normals.size()) / static_cast<double>(step);
-  if (best == votes.end() || *best < std::max(1.0, kMinShare * num_voters)) return std::nullopt;
-  return sums[static_cast<std::size_t>(best - votes.begin())].normalized();
-}
 
 PointImage RenderPoints(std::span<const Eigen::Vector3f> positions,
                         const ViewCamera& camera,

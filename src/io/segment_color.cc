@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/segment_color.h"
+#include "semslam/io/segment_color.h"
 
 #include <algorithm>
 #include <cmath>

@@ -37,42 +37,65 @@ LoopClosing::LoopClosing(const Options& options,
 
 LoopClosing::~LoopClosing() = default;
 
+struct LoopClosing::Candidate {
+  KeyframeId place;
+  bool is_apart = false;  // In another piece of the map.
+};
+
 std::optional<LoopClosing::Loop> LoopClosing::Process(KeyframeId keyframe_id) {
   struct Current {
     std::uint64_t epoch = 0;
-    std::vector<KeyframeId> candidates;
+    std::vector<Candidate> candidates;
     KeyframeCopy keyframe;
   };
   const Stopwatch stopwatch;
   const Current current = map_.Read([&](const Map& map) {
-    Current c{map.epoch(), detector_->FindCandidates(map, keyframe_id), {}};
+    Current c{map.epoch(), {}, {}};
+    for (const KeyframeId place : detector_->FindCandidates(map, keyframe_id)) {
+      const bool is_apart = map.keyframe(place).piece != map.keyframe(keyframe_id).piece;
+      c.candidates.push_back({place, is_apart});
+    }
     if (!c.candidates.empty()) c.keyframe = CopyKeyframe(map.keyframe(keyframe_id));
     return c;
   });
-  const Rigid3& T_world_keyframe = current.keyframe.T_world_camera;
-  for (const KeyframeId place : current.candidates) {
-    const std::optional<TrackedFrame> located =
-        locator_.Locate(current.keyframe.frame, *current.keyframe.words, place);
-    if (!located) continue;
-    const LoopMatch match{keyframe_id, place, located->T_world_camera, current.epoch};
-    const std::optional<LoopCorrection> correction =
-        CorrectLoop(camera_, baseline_times_fx_, match, loop_edges_,
-                    {options_.min_shared, options_.min_shared_essential, options_.min_hits_for_edge,
-                     options_.pose_graph},
-                    map_);
-    if (!correction) return std::nullopt;  // The map was moved meanwhile; the next will see it.
+  for (const Candidate& candidate : current.candidates) {
+    std::optional<Loop> loop = Close(current.keyframe, current.epoch, candidate);
+    if (!loop) continue;
     detector_->LoopClosed(keyframe_id);
-    loop_edges_.insert(loop_edges_.end(), correction->edges.begin(), correction->edges.end());
-    return Loop{
-        .keyframe = keyframe_id,
-        .place = place,
-        .num_matches = located->NumLandmarks(),
-        .num_fused = correction->num_fused,
-        .distance = (T_world_keyframe.translation - located->T_world_camera.translation).norm(),
-        .angle = RotationAngle(T_world_keyframe, located->T_world_camera),
-        .seconds = stopwatch.Seconds()};
+    loop->seconds = stopwatch.Seconds();
+    return loop;
   }
   return std::nullopt;
+}
+
+// Nothing if the keyframe does not show the place, or the map was moved meanwhile: then the next
+// keyframe will see it.
+std::optional<LoopClosing::Loop> LoopClosing::Close(const KeyframeCopy& keyframe,
+                                                    std::uint64_t epoch,
+                                                    const Candidate& candidate) {
+  const std::optional<TrackedFrame> located =
+      locator_.Locate(keyframe.frame, *keyframe.words, candidate.place);
+  if (!located) return std::nullopt;
+  if (candidate.is_apart && located->NumLandmarks() < options_.min_matches_to_join) {
+    return std::nullopt;
+  }
+  const LoopMatch match{keyframe.id, candidate.place, located->T_world_camera, epoch};
+  const auto correct = candidate.is_apart ? JoinPieces : CorrectLoop;
+  const std::optional<LoopCorrection> correction =
+      correct(camera_, baseline_times_fx_, match,
+              {options_.min_shared, options_.min_shared_essential, options_.min_hits_for_edge,
+               options_.pose_graph},
+              map_);
+  if (!correction) return std::nullopt;
+  const Rigid3& T_world_old = keyframe.T_world_camera;
+  const Rigid3& T_world_new = located->T_world_camera;
+  return Loop{.keyframe = keyframe.id,
+              .place = candidate.place,
+              .num_matches = located->NumLandmarks(),
+              .num_fused = correction->num_fused,
+              .distance = (T_world_old.translation - T_world_new.translation).norm(),
+              .angle = RotationAngle(T_world_old, T_world_new),
+              .joins_pieces = candidate.is_apart};
 }
 
 }  // namespace semslam

@@ -6,9 +6,8 @@
 #include <map>
 
 #include "semslam/mapping/appearance_update.h"
-#include "semslam/mapping/landmark_search.h"
 
-#include "loop/covisible_group.h"
+#include "loop/loop_fusion.h"
 
 namespace semslam {
 namespace {
@@ -18,9 +17,7 @@ struct Snapshot {
   std::vector<KeyframeId> keyframes;  // One a node of the graph.
   std::map<KeyframeId, int> node_of;
   PoseGraph graph;  // As the map is: before the loop.
-  ScaleSpace scale_space;
-  std::vector<KeyframeCopy> group;           // The keyframe and its covisible ones.
-  std::vector<LandmarkCopy> loop_landmarks;  // Seen at the other end.
+  BothEnds ends;
 };
 
 // An edge between two keyframes as they stand in the snapshot.
@@ -33,15 +30,8 @@ void AddEdge(KeyframeId a, KeyframeId b, Snapshot* snapshot) {
       {from->second, to->second, poses[from->second].Inverse() * poses[to->second]});
 }
 
-void AddEdges(const LoopEdges& edges, Snapshot* snapshot) {
-  for (const auto& [a, b] : edges) AddEdge(a, b, snapshot);
-}
-
 // The essential graph: the spanning tree, earlier loops, and pairs that share many landmarks.
-void AddEssentialGraph(const Map& map,
-                       const LoopEdges& old_loops,
-                       int min_shared,
-                       Snapshot* snapshot) {
+void AddEssentialGraph(const Map& map, int min_shared, Snapshot* snapshot) {
   snapshot->keyframes = map.KeyframeIds();
   for (const KeyframeId id : snapshot->keyframes) {
     const Keyframe& keyframe = map.keyframe(id);
@@ -51,48 +41,26 @@ void AddEssentialGraph(const Map& map,
   }
   for (const KeyframeId id : snapshot->keyframes) {
     const Keyframe& keyframe = map.keyframe(id);
-    if (keyframe.parent) AddEdge(*keyframe.parent, id, snapshot);
+    if (keyframe.parent && !keyframe.starts_piece) AddEdge(*keyframe.parent, id, snapshot);
     for (const CovisibleKeyframe& covisible : keyframe.covisible) {
       const bool is_first_of_two = covisible.id < id;
       if (!is_first_of_two || covisible.id == keyframe.parent) continue;
       if (covisible.num_shared >= min_shared) AddEdge(covisible.id, id, snapshot);
     }
+    for (const KeyframeId partner : keyframe.loop_partners) {
+      if (partner < id) AddEdge(partner, id, snapshot);
+    }
   }
-  AddEdges(old_loops, snapshot);
 }
 
 std::optional<Snapshot> TakeSnapshot(const Map& map,
                                      const LoopMatch& match,
-                                     const LoopEdges& old_loops,
                                      const LoopCorrectionOptions& options) {
-  const bool is_there = map.epoch() == match.epoch && map.FindKeyframe(match.keyframe) != nullptr &&
-                        map.FindKeyframe(match.place) != nullptr;
-  if (!is_there) return std::nullopt;
+  if (!Holds(match, map)) return std::nullopt;
   Snapshot snapshot;
-  snapshot.scale_space = map.scale_space();
-  AddEssentialGraph(map, old_loops, options.min_shared_essential, &snapshot);
-  for (const KeyframeId id : GroupOf(map, match.keyframe, options.min_shared)) {
-    snapshot.group.push_back(CopyKeyframe(map.keyframe(id)));
-  }
-  snapshot.loop_landmarks = map.CopyLandmarksSeenBy(GroupOf(map, match.place, options.min_shared));
+  AddEssentialGraph(map, options.min_shared_essential, &snapshot);
+  snapshot.ends = CopyBothEnds(map, match, options.min_shared);
   return snapshot;
-}
-
-// What a keyframe of the group, at its corrected pose, shows of the other end.
-struct GroupHits {
-  KeyframeId keyframe;
-  std::vector<LandmarkHit> hits;
-};
-
-std::vector<GroupHits> SearchLoopLandmarks(const ProjectionCamera& camera,
-                                           const Snapshot& snapshot) {
-  constexpr LandmarkSearchOptions kSearch{.radius = 4.0F, .must_agree_well = false};
-  std::vector<GroupHits> result;
-  for (const KeyframeCopy& keyframe : snapshot.group) {
-    result.push_back(
-        {keyframe.id, FindLandmarks(camera, keyframe, snapshot.loop_landmarks, kSearch)});
-  }
-  return result;
 }
 
 MapCorrection SolveGraph(const Snapshot& snapshot,
@@ -112,51 +80,36 @@ MapCorrection SolveGraph(const Snapshot& snapshot,
 std::optional<LoopCorrection> CorrectLoop(const PinholeCamera& camera,
                                           double baseline_times_fx,
                                           const LoopMatch& match,
-                                          const LoopEdges& old_loops,
                                           const LoopCorrectionOptions& options,
                                           SharedMap& shared_map) {
   std::optional<Snapshot> snapshot =
-      shared_map.Read([&](const Map& map) { return TakeSnapshot(map, match, old_loops, options); });
+      shared_map.Read([&](const Map& map) { return TakeSnapshot(map, match, options); });
   if (!snapshot) return std::nullopt;
   const std::vector<Rigid3> T_world_old = snapshot->graph.T_world_node;
 
   // The group goes where the match says, as one.
   const Rigid3 T_new_old =
       match.T_world_keyframe * T_world_old[snapshot->node_of.at(match.keyframe)].Inverse();
-  for (KeyframeCopy& keyframe : snapshot->group) {
+  for (KeyframeCopy& keyframe : snapshot->ends.group) {
     keyframe.T_world_camera = T_new_old * keyframe.T_world_camera;
     const int node = snapshot->node_of.at(keyframe.id);
     if (snapshot->graph.is_fixed[node] == 0) {
       snapshot->graph.T_world_node[node] = keyframe.T_world_camera;
     }
   }
-  const std::vector<GroupHits> found =
-      SearchLoopLandmarks({camera, baseline_times_fx, snapshot->scale_space}, *snapshot);
-  LoopCorrection result;
-  for (const GroupHits& group : found) {
-    const bool is_well_tied = static_cast<int>(group.hits.size()) >= options.min_hits_for_edge;
-    if (group.keyframe == match.keyframe || (is_well_tied && group.keyframe != match.place)) {
-      result.edges.emplace_back(group.keyframe, match.place);
-    }
-  }
-  AddEdges(result.edges, &*snapshot);  // By the group's corrected poses.
+  const std::vector<GroupHits> found = FindInGroup(camera, baseline_times_fx, snapshot->ends);
+  const LoopEdges edges = EdgesToPlace(found, match, options.min_hits_for_edge);
+  for (const auto& [a, b] : edges) AddEdge(a, b, &*snapshot);  // By the group's corrected poses.
   const MapCorrection correction = SolveGraph(*snapshot, T_world_old, options.pose_graph);
 
-  std::vector<LandmarkId> touched;
-  const bool is_committed = shared_map.Write([&](Map& map) {
-    if (map.epoch() != match.epoch || map.FindKeyframe(match.keyframe) == nullptr) return false;
+  const auto fused = shared_map.Write([&](Map& map) -> std::optional<FusedLandmarks> {
+    if (!Holds(match, map)) return std::nullopt;
     map.Correct(correction);
-    for (const GroupHits& group : found) {
-      result.num_fused += FuseHits(group.keyframe, group.hits, map);
-      for (const LandmarkHit& hit : group.hits) {
-        if (const auto landmark = map.ResolveLandmark(hit.landmark)) touched.push_back(*landmark);
-      }
-    }
-    return true;
+    return FuseEnds(found, edges, map);
   });
-  if (!is_committed) return std::nullopt;
-  UpdateAppearances(shared_map, touched);
-  return result;
+  if (!fused) return std::nullopt;
+  UpdateAppearances(shared_map, fused->touched);
+  return LoopCorrection{.num_fused = fused->count};
 }
 
 }  // namespace semslam

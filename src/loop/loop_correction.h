@@ -23,6 +23,10 @@ struct LoopMatch {
   Rigid3 T_world_keyframe;
   std::uint64_t epoch = 0;  // Of the map in which this holds.
 };
+inline bool Holds(const LoopMatch& match, const Map& map) {
+  return map.epoch() == match.epoch && map.FindKeyframe(match.keyframe) != nullptr &&
+         map.FindKeyframe(match.place) != nullptr;
+}
 
 struct LoopCorrectionOptions {
   int min_shared;            // Landmarks in common: the groups around keyframe and place.
@@ -32,8 +36,7 @@ struct LoopCorrectionOptions {
 };
 
 struct LoopCorrection {
-  int num_fused = 0;
-  LoopEdges edges;  // The new ones.
+  int num_fused = 0;  // Landmarks that both ends see.
 };
 
 // Moves the map so that both ends of the loop meet: the keyframe's group goes where the match says,
@@ -43,8 +46,15 @@ struct LoopCorrection {
 std::optional<LoopCorrection> CorrectLoop(const PinholeCamera& camera,
                                           double baseline_times_fx,
                                           const LoopMatch& match,
-                                          const LoopEdges& old_loops,
                                           const LoopCorrectionOptions& options,
                                           SharedMap& map);
+
+// The same where keyframe and place are in two pieces of the map: the younger piece goes where the
+// match says as a whole, and belongs to the older one from now on.
+std::optional<LoopCorrection> JoinPieces(const PinholeCamera& camera,
+                                         double baseline_times_fx,
+                                         const LoopMatch& match,
+                                         const LoopCorrectionOptions& options,
+                                         SharedMap& map);
 
 }  // namespace semslam

@@ -59,9 +59,9 @@ bool Intersect(const std::vector<KeyframeId>& a, const std::vector<KeyframeId>& 
 std::vector<KeyframeId> LoopDetector::FindCandidates(const Map& map, KeyframeId keyframe_id) {
   const Keyframe* keyframe = map.FindKeyframe(keyframe_id);
   if (keyframe == nullptr || !keyframe->words) return {};
-  if (last_loop_ && keyframe_id.value < last_loop_->value + options_.min_keyframes_between) {
-    return {};
-  }
+  const bool is_soon =
+      last_loop_ && keyframe_id.value < last_loop_->value + options_.min_keyframes_between;
+  if (is_soon && map.pieces().size() == 1) return {};
   SimilarPlaceOptions search;
   search.excluded = Surroundings(map, keyframe_id, options_.min_shared);
   search.min_score = LowestScoreOfNeighbours(map, *keyframe, options_.min_shared);
@@ -70,7 +70,10 @@ std::vector<KeyframeId> LoopDetector::FindCandidates(const Map& map, KeyframeId 
   for (const KeyframeId place : FindSimilarPlaces(map, keyframe->words->vector, search)) {
     Group group{SortedGroupOf(map, place, options_.min_shared)};
     group.length = LengthOfChain(group.members) + 1;
-    if (group.length >= options_.num_consistent) candidates.push_back(place);
+    const bool is_apart = map.keyframe(place).piece != keyframe->piece;
+    if (is_apart || (!is_soon && group.length >= options_.num_consistent)) {
+      candidates.push_back(place);
+    }
     current.push_back(std::move(group));
   }
   previous_ = std::move(current);

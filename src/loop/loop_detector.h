@@ -23,7 +23,9 @@ class LoopDetector {
  public:
   explicit LoopDetector(const LoopDetectorOptions& options) : options_(options) {}
 
-  // The old keyframes that this one and those before it agree on, likeliest first.
+  // The old keyframes that this one and those before it agree on, likeliest first. In another piece
+  // of the map one keyframe alone will do: nothing else ties the two together, and the camera may
+  // not come back.
   std::vector<KeyframeId> FindCandidates(const Map& map, KeyframeId keyframe);
   // No other loop for a while.
   void LoopClosed(KeyframeId keyframe);

@@ -32,6 +32,9 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& T_
   keyframe->landmarks.resize(frame->keypoints.size());
   keyframe->frame = std::move(frame);
   keyframe->T_world_camera = T_world_camera;
+  keyframe->piece = id;
+  keyframe->starts_piece = true;
+  pieces_[id] = 1;
   keyframes_.push_back({std::move(keyframe), {}, {}});
   ++num_keyframes_;
   ++version_;
@@ -106,8 +109,9 @@ void Map::ChangeSharedCount(KeyframeId a, KeyframeId b, int change) {
   }
 }
 
-void Map::ChooseParent(KeyframeId id) {
+void Map::ChooseParent(KeyframeId id, std::optional<KeyframeId> otherwise) {
   Keyframe& keyframe = MutableKeyframe(id);
+  const bool is_new = !keyframe.parent;
   const CovisibleKeyframe* best = nullptr;
   for (const CovisibleKeyframe& candidate : keyframe.covisible) {
     // Only older keyframes, so that the tree can have no cycle; the newest of equals.
@@ -117,12 +121,50 @@ void Map::ChooseParent(KeyframeId id) {
   }
   if (best != nullptr) {
     keyframe.parent = best->id;
+  } else if (otherwise) {
+    SEMSLAM_CHECK(*otherwise < id && FindKeyframe(*otherwise) != nullptr)
+        << "keyframe " << otherwise->value << " below keyframe " << id.value;
+    keyframe.parent = otherwise;
   } else {
-    // Nothing in common with anyone: below the keyframe before it.
     keyframe.parent.reset();
     for (std::uint32_t i = id.value; i-- > 0 && !keyframe.parent;) {
       if (keyframes_[i].keyframe) keyframe.parent = KeyframeId{i};
     }
+  }
+  if (keyframe.parent) {
+    if (best != nullptr || is_new) keyframe.starts_piece = false;
+    MoveToPiece(keyframe, MutableKeyframe(*keyframe.parent).piece);
+  }
+  ++version_;
+}
+
+void Map::MoveToPiece(Keyframe& keyframe, KeyframeId piece) {
+  if (keyframe.piece == piece) return;
+  if (--pieces_.at(keyframe.piece) == 0) pieces_.erase(keyframe.piece);
+  keyframe.piece = piece;
+  ++pieces_[piece];
+}
+
+void Map::JoinPieces(KeyframeId kept, KeyframeId joined) {
+  SEMSLAM_CHECK(kept < joined && pieces_.contains(kept) && pieces_.contains(joined))
+      << "pieces " << kept.value << " and " << joined.value;
+  for (const KeyframeSlot& slot : keyframes_) {
+    if (!slot.keyframe) continue;
+    Keyframe& keyframe = *slot.keyframe;
+    // The newest before the joined ones becomes the parent of their first.
+    if (keyframe.piece == kept && keyframe.id < joined)
+      MutableKeyframe(joined).parent = keyframe.id;
+    if (keyframe.piece == joined) MoveToPiece(keyframe, kept);
+  }
+  ++version_;
+}
+
+void Map::TieByLoop(KeyframeId a, KeyframeId b) {
+  SEMSLAM_CHECK(a != b && keyframe(a).piece == keyframe(b).piece) << a.value << " and " << b.value;
+  for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+    std::vector<KeyframeId>& partners = MutableKeyframe(from).loop_partners;
+    const auto position = std::lower_bound(partners.begin(), partners.end(), to);
+    if (position == partners.end() || *position != to) partners.insert(position, to);
   }
   ++version_;
 }
@@ -194,7 +236,7 @@ void Map::EraseLandmark(LandmarkId id) {
 
 void Map::EraseKeyframe(KeyframeId id) {
   Keyframe& keyframe = MutableKeyframe(id);
-  SEMSLAM_CHECK(keyframe.parent) << "the first keyframe cannot be erased";
+  SEMSLAM_CHECK(!keyframe.is_anchor()) << "keyframe " << id.value << " cannot be erased";
   for (std::size_t feature = 0; feature < keyframe.landmarks.size(); ++feature) {
     if (const std::optional<LandmarkId> landmark = keyframe.landmarks[feature]) {
       RemoveObservation(*landmark, id);
@@ -206,6 +248,7 @@ void Map::EraseKeyframe(KeyframeId id) {
   slot.parent = keyframe.parent;
   slot.T_parent_camera =
       MutableKeyframe(*slot.parent).T_world_camera.Inverse() * keyframe.T_world_camera;
+  --pieces_.at(keyframe.piece);  // Not the last: the piece's first is an anchor.
   slot.keyframe.reset();
   --num_keyframes_;
   ++version_;
@@ -215,15 +258,34 @@ void Map::ReparentChildren(const Keyframe& erased) {
   for (std::uint32_t i = erased.id.value + 1; i < keyframes_.size(); ++i) {
     Keyframe* child = keyframes_[i].keyframe.get();
     if (child == nullptr || child->parent != erased.id) continue;
-    ChooseParent(child->id);  // The erased one shares no landmark any more.
-    if (!child->parent || *child->parent == erased.id) child->parent = erased.parent;
+    ChooseParent(child->id, erased.parent);  // The erased one shares no landmark any more.
   }
+}
+
+void Map::ErasePiece(KeyframeId piece) {
+  SEMSLAM_CHECK(pieces_.contains(piece)) << "no piece " << piece.value;
+  for (LandmarkSlot& slot : landmarks_) {
+    if (!slot.landmark || keyframe(slot.landmark->reference_keyframe).piece != piece) continue;
+    slot = {};
+    --num_landmarks_;
+  }
+  for (KeyframeSlot& slot : keyframes_) {
+    if (!slot.keyframe || slot.keyframe->piece != piece) continue;
+    const Keyframe& dropped = *slot.keyframe;
+    if (dropped.words) keyframe_index_.Erase(dropped.id, dropped.words->vector);
+    slot = {};
+    --num_keyframes_;
+  }
+  pieces_.erase(piece);
+  ++version_;
+  ++epoch_;
 }
 
 void Map::Clear() {
   for (KeyframeSlot& slot : keyframes_) slot = {};
   for (LandmarkSlot& slot : landmarks_) slot = {};
   keyframe_index_ = {};
+  pieces_.clear();
   num_keyframes_ = 0;
   num_landmarks_ = 0;
   ++version_;

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/map/map_archive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "semslam/features/frame_archive.h"
 #include "semslam/geometry/rigid3_archive.h"
@@ -96,15 +98,21 @@ void MapArchive::WriteKeyframeSlot(const KeyframeSlot& slot, BinaryWriter* write
   if (keyframe.parent) writer->Write(keyframe.parent->value);
   WriteRigid3(keyframe.T_world_camera, writer);
   writer->Write<std::uint8_t>(keyframe.words ? 1 : 0);
+  writer->Write<std::uint8_t>(keyframe.starts_piece ? 1 : 0);
+  const auto older_end =
+      std::lower_bound(keyframe.loop_partners.begin(), keyframe.loop_partners.end(), keyframe.id);
+  writer->Write<std::uint64_t>(older_end - keyframe.loop_partners.begin());
+  for (auto it = keyframe.loop_partners.begin(); it != older_end; ++it) writer->Write(it->value);
   WriteFrame(*keyframe.frame, writer);
 }
 
-// Parents are older: the map holds them already.
-KeyframeId MapArchive::ReadParent(BinaryReader* reader, const Map& map, bool must_be_kept) {
-  const KeyframeId parent{reader->ReadIndex(map.keyframes_.size(), "parent of a keyframe")};
+// Parents, and the ends of loops that are written, are older: the map holds them already.
+KeyframeId MapArchive::ReadOlder(BinaryReader* reader, const Map& map, bool must_be_kept) {
+  const KeyframeId parent{reader->ReadIndex(map.keyframes_.size(), "older keyframe")};
   const KeyframeSlot& slot = map.keyframes_[parent.value];
   if (!slot.keyframe && (must_be_kept || !slot.parent)) {
-    reader->Fail("keyframe " + std::to_string(parent.value) + " is a parent, but is not there");
+    reader->Fail("keyframe " + std::to_string(parent.value) +
+                 " is a parent or the end of a loop, but is not there");
   }
   return parent;
 }
@@ -117,25 +125,36 @@ void MapArchive::ReadKeyframeSlot(BinaryReader* reader,
   if (kind == SlotKind::kNothing || kind == SlotKind::kErased) {
     KeyframeSlot slot;
     if (kind == SlotKind::kErased) {
-      slot.parent = ReadParent(reader, *map, false);
+      slot.parent = ReadOlder(reader, *map, false);
       slot.T_parent_camera = ReadRigid3(reader, "pose of an erased keyframe");
     }
     map->keyframes_.push_back(std::move(slot));
     return;
   }
-  if ((kind == SlotKind::kFirst) != (map->num_keyframes_ == 0)) {
-    reader->Fail("expected the first keyframe, and no other, to have no parent");
-  }
   std::optional<KeyframeId> parent;
-  if (kind == SlotKind::kKept) parent = ReadParent(reader, *map, true);
+  if (kind == SlotKind::kKept) parent = ReadOlder(reader, *map, true);
   const Rigid3 T_world_camera = ReadRigid3(reader, "pose of a keyframe");
   const bool has_words = reader->Read<std::uint8_t>() != 0;
+  const bool starts_piece = reader->Read<std::uint8_t>() != 0;
+  std::vector<KeyframeId> loop_partners(reader->ReadCount(sizeof(std::uint32_t)));
+  for (KeyframeId& partner : loop_partners) partner = ReadOlder(reader, *map, true);
   std::shared_ptr<const Frame> frame =
       ReadFrame(reader, camera_bounds, map->scale_space_.num_levels);
   BagOfWords words;
   if (has_words) words = vocabulary.Transform(frame->descriptors);
   const KeyframeId id = map->AddKeyframe(std::move(frame), T_world_camera);
-  map->MutableKeyframe(id).parent = parent;
+  if (parent) {
+    Keyframe& keyframe = map->MutableKeyframe(id);
+    keyframe.parent = parent;
+    keyframe.starts_piece = starts_piece;
+    map->MoveToPiece(keyframe, map->keyframe(*parent).piece);
+  }
+  for (const KeyframeId partner : loop_partners) {
+    if (map->keyframe(partner).piece != map->keyframe(id).piece) {
+      reader->Fail("a loop ties two pieces of the map that were not joined");
+    }
+    map->TieByLoop(partner, id);
+  }
   if (has_words) map->SetWords(id, std::make_shared<const BagOfWords>(std::move(words)));
 }
 
@@ -188,6 +207,9 @@ void MapArchive::ReadObservations(BinaryReader* reader, Map* map, Landmark* land
     if (keyframe->landmarks[feature]) reader->Fail("two landmarks are seen as one feature");
     if (i > 0 && !(landmark->observations.back().keyframe < id)) {
       reader->Fail("expected the observations of a landmark in the order of keyframes");
+    }
+    if (i > 0 && map->keyframe(landmark->observations.back().keyframe).piece != keyframe->piece) {
+      reader->Fail("a landmark is seen from two pieces of the map");
     }
     map->Link(*landmark, {id, feature});
     has_reference |= id == landmark->reference_keyframe;

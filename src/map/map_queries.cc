@@ -82,6 +82,29 @@ std::optional<Rigid3> Map::ResolvePose(KeyframeId id) const {
   }
 }
 
+std::optional<KeyframeId> Map::NearestKeptAncestor(KeyframeId id) const {
+  while (true) {
+    SEMSLAM_CHECK(id.value < keyframes_.size()) << "no keyframe " << id.value;
+    const KeyframeSlot& slot = keyframes_[id.value];
+    if (slot.keyframe) return id;
+    if (!slot.parent) return std::nullopt;
+    id = *slot.parent;
+  }
+}
+
+std::optional<KeyframeId> Map::PieceOf(KeyframeId id) const {
+  const std::optional<KeyframeId> kept = NearestKeptAncestor(id);
+  return kept ? std::optional(keyframe(*kept).piece) : std::nullopt;
+}
+
+std::optional<KeyframeId> Map::MainPiece() const {
+  std::optional<KeyframeId> main;
+  for (const auto& [piece, num_keyframes] : pieces_) {
+    if (!main || num_keyframes > pieces_.at(*main)) main = piece;
+  }
+  return main;
+}
+
 std::vector<KeyframeId> Map::KeyframeIds() const {
   std::vector<KeyframeId> ids;
   for (const KeyframeSlot& slot : keyframes_) {
@@ -184,6 +207,21 @@ void Map::UpdateDistanceRange(const Landmark& mark, LandmarkAppearance* appearan
       appearance->max_distance / scale_space_.PixelSize(scale_space_.num_levels - 1);
 }
 
+void Map::CheckTree(const Keyframe& frame) const {
+  if (frame.parent) {
+    const Keyframe* parent = FindKeyframe(*frame.parent);
+    SEMSLAM_CHECK(parent != nullptr && parent->id < frame.id && parent->piece == frame.piece)
+        << "parent " << frame.parent->value << " of keyframe " << frame.id.value;
+  } else {
+    SEMSLAM_CHECK(frame.starts_piece && frame.piece == frame.id) << "keyframe " << frame.id.value;
+  }
+  for (const KeyframeId id : frame.loop_partners) {
+    const std::vector<KeyframeId>& partners = keyframe(id).loop_partners;
+    SEMSLAM_CHECK(std::binary_search(partners.begin(), partners.end(), frame.id))
+        << "keyframes " << id.value << " and " << frame.id.value;
+  }
+}
+
 void Map::CheckConsistency() const {
   std::map<std::pair<KeyframeId, KeyframeId>, int> shared;
   std::size_t num_observations = 0;
@@ -204,6 +242,7 @@ void Map::CheckConsistency() const {
     SEMSLAM_CHECK(has_reference) << "landmark " << mark.id.value;
     num_observations += mark.observations.size();
   }
+  std::map<KeyframeId, std::size_t> sizes;
   std::size_t num_back_references = 0;
   std::size_t num_with_words = 0;
   for (const KeyframeSlot& slot : keyframes_) {
@@ -211,10 +250,8 @@ void Map::CheckConsistency() const {
     const Keyframe& frame = *slot.keyframe;
     num_with_words += frame.words ? 1 : 0;
     for (const std::optional<LandmarkId> id : frame.landmarks) num_back_references += id ? 1 : 0;
-    if (frame.parent) {
-      SEMSLAM_CHECK(FindKeyframe(*frame.parent) != nullptr && *frame.parent < frame.id)
-          << "parent " << frame.parent->value << " of keyframe " << frame.id.value;
-    }
+    CheckTree(frame);
+    ++sizes[frame.piece];
     for (const CovisibleKeyframe& covisible : frame.covisible) {
       const auto it = shared.find({frame.id, covisible.id});
       SEMSLAM_CHECK(it != shared.end() && it->second == covisible.num_shared)
@@ -222,6 +259,7 @@ void Map::CheckConsistency() const {
       shared.erase(it);
     }
   }
+  SEMSLAM_CHECK(sizes == pieces_) << sizes.size() << " pieces, known are " << pieces_.size();
   SEMSLAM_CHECK(shared.empty()) << shared.size() << " missing covisibility edges";
   SEMSLAM_CHECK(num_with_words == keyframe_index_.num_keyframes())
       << num_with_words << " keyframes with words, " << keyframe_index_.num_keyframes()

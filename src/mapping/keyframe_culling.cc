@@ -57,11 +57,12 @@ std::vector<KeyframeId> CullRedundantKeyframes(const MappingContext& context,
     // One by one: erasing one makes the others less redundant.
     const bool is_redundant = context.map.Read([&](const Map& map) {
       const Keyframe* keyframe = map.FindKeyframe(id);
-      return keyframe != nullptr && keyframe->parent && IsRedundant(map, *keyframe, options);
+      return keyframe != nullptr && !keyframe->is_anchor() && IsRedundant(map, *keyframe, options);
     });
     if (!is_redundant) continue;
     context.map.Write([&](Map& map) {
-      if (map.FindKeyframe(id) != nullptr) map.EraseKeyframe(id);
+      const Keyframe* keyframe = map.FindKeyframe(id);
+      if (keyframe != nullptr && !keyframe->is_anchor()) map.EraseKeyframe(id);
     });
     culled.push_back(id);
   }

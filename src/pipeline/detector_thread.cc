@@ -3,6 +3,7 @@
 
 #include "semslam/pipeline/detector_thread.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -26,7 +27,10 @@ DetectorThread::DetectorThread(Threading threading, std::unique_ptr<Detector> de
 bool DetectorThread::Submit(KeyframeId keyframe, const RgbdImagePtr& image) {
   Job job{keyframe, {image->time, image->color, cv::Mat()}};
   statistics_.Write([](Statistics& s) { ++s.num_submitted; });
-  return stage_.TrySubmit(std::move(job));
+  const bool is_taken = stage_.TrySubmit(std::move(job));
+  statistics_.Write(
+      [&](Statistics& s) { s.longest_queue = std::max(s.longest_queue, stage_.queue_size()); });
+  return is_taken;
 }
 
 void DetectorThread::Process(const Job& job) {

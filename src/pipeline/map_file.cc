@@ -24,7 +24,7 @@ struct Header {
 static_assert(sizeof(Header) == 32);
 
 constexpr std::array<char, 8> kMagic = {'s', 'e', 'm', 's', 'l', 'm', 'a', 'p'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 }  // namespace
 

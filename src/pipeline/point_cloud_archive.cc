@@ -38,10 +38,14 @@ bool PointCloudMapping::Restore(BinaryReader* reader) {
   const std::size_t num_clouds = reader->ReadCount(sizeof(std::uint32_t));
   for (std::size_t i = 0; i < num_clouds; ++i) {
     std::shared_ptr<const KeyframeCloud> cloud = ReadKeyframeCloud(reader, rays_);
-    const std::map<KeyframeId, Rigid3> poses = pose_lookup_({cloud->id()});
-    if (poses.empty()) reader->Fail("a cloud belongs to a keyframe that is not there");
-    if (!clouds_.emplace(cloud->id(), cloud).second) reader->Fail("a keyframe has two clouds");
-    voxel_map_.Integrate(std::move(cloud), poses.begin()->second);
+    const KeyframeId id = cloud->id();
+    const Places places = look_up_({id});
+    if (places.T_world_camera.empty() && places.apart.empty())
+      reader->Fail("a cloud belongs to a keyframe that is not there");
+    if (!clouds_.emplace(id, cloud).second) reader->Fail("a keyframe has two clouds");
+    sight_.Write([&](Sight& sight) { sight.clouds[id] = cloud; });
+    if (!places.apart.contains(id))
+      voxel_map_.Integrate(std::move(cloud), places.T_world_camera.at(id));
   }
   const ClassTable classes = ReadClassTable(reader);
   std::map<KeyframeId, std::vector<Detection>> detections;

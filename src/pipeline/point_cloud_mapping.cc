@@ -21,11 +21,12 @@ PointCloudMapping::PointCloudMapping(Threading threading,
                                      const Options& options,
                                      const PinholeCamera& camera,
                                      ClassTable classes,
-                                     PoseLookup pose_lookup)
+                                     PlaceLookup look_up)
     : options_(options),
+      threading_(threading),
       rays_(std::make_shared<const RayTable>(camera)),
       classes_(std::move(classes)),
-      pose_lookup_(std::move(pose_lookup)),
+      look_up_(std::move(look_up)),
       voxel_map_(options.voxels),
       live_segments_(options.live, options.segmentation, &voxel_map_),
       stage_(
@@ -46,7 +47,50 @@ bool PointCloudMapping::InsertDetections(KeyframeId keyframe, std::vector<Detect
 
 void PointCloudMapping::FollowCorrection() { stage_.TrySubmit({.kind = Job::Kind::kCorrection}); }
 
+std::vector<std::shared_ptr<const KeyframeCloud>> PointCloudMapping::clouds() const {
+  return sight_.Read([](const Sight& sight) {
+    std::vector<std::shared_ptr<const KeyframeCloud>> clouds;
+    clouds.reserve(sight.clouds.size());
+    for (const auto& [id, cloud] : sight.clouds) clouds.push_back(cloud);
+    return clouds;
+  });
+}
+
+void PointCloudMapping::RequestPreview() {
+  if (threading_ == Threading::kInline) return;
+  sight_.Write([](Sight& sight) { sight.preview_is_wanted = true; });
+  stage_.TrySubmit({.kind = Job::Kind::kPreview});  // If the queue is full, others come anyway.
+}
+
+std::shared_ptr<const PointCloudMapping::Result> PointCloudMapping::preview() const {
+  return sight_.Read([](const Sight& sight) { return sight.preview; });
+}
+
 void PointCloudMapping::Process(Job job) {
+  Do(std::move(job));
+  const bool is_wanted = sight_.Read([](const Sight& sight) { return sight.preview_is_wanted; });
+  // Keyframes may wait a little, as long as nobody has to wait for room in the queue.
+  if (is_wanted && stage_.queue_size() <= options_.queue_capacity / 4) ShowPreview();
+}
+
+void PointCloudMapping::ShowPreview() {
+  std::shared_ptr<const Result> shown = preview();
+  if (num_changes_ != num_changes_shown_) {
+    num_changes_shown_ = num_changes_;
+    // In this background thread alone, so that tracking keeps its core.
+    Segmenter::Options segmentation = options_.segmentation;
+    segmentation.num_threads = 1;
+    shown =
+        std::make_shared<const Result>(Build(segmentation, shown ? &shown->semantics : nullptr));
+  }
+  sight_.Write([&](Sight& sight) {
+    sight.preview = std::move(shown);
+    sight.preview_is_wanted = false;
+  });
+}
+
+void PointCloudMapping::Do(Job job) {
+  if (job.kind != Job::Kind::kPreview) ++num_changes_;
   switch (job.kind) {
     case Job::Kind::kKeyframe:
       return Integrate(job.keyframe, *job.image);
@@ -56,15 +100,15 @@ void PointCloudMapping::Process(Job job) {
     case Job::Kind::kCorrection:
       FollowPoses(options_.voxels.max_shift);
       return live_segments_.FollowCorrection();
+    case Job::Kind::kPreview:
+      return;  // It comes after everything.
   }
 }
 
 void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_({keyframe});
-  if (poses.empty()) return;  // The map was cleared since.
   const Stopwatch stopwatch;
   auto cloud = BuildKeyframeCloud(keyframe, image, rays_, options_.cloud);
-  voxel_map_.Integrate(cloud, poses.begin()->second);
+  sight_.Write([&](Sight& sight) { sight.clouds[keyframe] = cloud; });
   clouds_[keyframe] = std::move(cloud);
   FollowPoses(options_.voxels.max_shift);
   integration_seconds_ += stopwatch.Seconds();
@@ -76,20 +120,25 @@ void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
 void PointCloudMapping::FollowPoses(double max_shift) {
   std::vector<KeyframeId> ids;
   for (const auto& [id, cloud] : clouds_) ids.push_back(id);
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_(ids);
+  const Places places = look_up_(ids);
   for (const KeyframeId id : ids) {
-    if (poses.contains(id)) continue;
+    if (places.T_world_camera.contains(id)) continue;
     voxel_map_.Remove(id);
+    if (places.apart.contains(id)) continue;
     clouds_.erase(id);
+    sight_.Write([id](Sight& sight) { sight.clouds.erase(id); });
     detections_.erase(id);
   }
-  voxel_map_.UpdatePoses(poses, max_shift);
+  voxel_map_.UpdatePoses(places.T_world_camera, max_shift);
+  for (const auto& [id, T_world_camera] : places.T_world_camera) {
+    if (!voxel_map_.Contains(id)) voxel_map_.Integrate(clouds_.at(id), T_world_camera);
+  }
 }
 
 std::vector<LabelledKeyframe> PointCloudMapping::LabelledKeyframes() const {
   std::vector<KeyframeId> ids;
   for (const auto& [id, detections] : detections_) ids.push_back(id);
-  const std::map<KeyframeId, Rigid3> poses = pose_lookup_(ids);
+  const std::map<KeyframeId, Rigid3> poses = look_up_(ids).T_world_camera;
   std::vector<LabelledKeyframe> views;
   for (const auto& [id, detections] : detections_) {
     const auto cloud = clouds_.find(id);
@@ -103,17 +152,22 @@ std::vector<LabelledKeyframe> PointCloudMapping::LabelledKeyframes() const {
 PointCloudMapping::Result PointCloudMapping::Finish() {
   stage_.Finish();
   FollowPoses(0.0);  // The final map is exact.
+  return Build(options_.segmentation, nullptr);
+}
+
+PointCloudMapping::Result PointCloudMapping::Build(const Segmenter::Options& segmentation,
+                                                   const SemanticMap* previous) const {
   Result result;
   result.cloud = voxel_map_.Extract();
   Stopwatch stopwatch;
   result.segmentation =
-      Segmenter(options_.segmentation)
+      Segmenter(segmentation)
           .Segment({.points = result.cloud.positions, .normals = result.cloud.normals});
   result.segmentation_milliseconds = stopwatch.Milliseconds();
   stopwatch.Restart();
   const VoxelIndex index(result.cloud.positions, result.cloud.voxel_size);
   result.semantics = BuildSemanticMap(result.cloud, index, result.segmentation, LabelledKeyframes(),
-                                      classes_, options_.fusion);
+                                      classes_, options_.fusion, previous);
   result.fusion_milliseconds = stopwatch.Milliseconds();
   result.live = live_segments_.statistics();
   if (num_integrated_ > 0) {

@@ -66,11 +66,12 @@ System::System(const Settings& settings,
                 map_),
       local_mapping_(MappingOptions(settings), camera_, settings.bf, vocabulary, map_),
       loop_closing_(settings.loop.closing, camera_, settings.bf, vocabulary, map_),
-      point_cloud_mapping_(options.threading,
-                           PointCloudOptions(settings),
-                           camera_,
-                           options.detector ? options.detector->classes() : ClassTable(),
-                           [this](const std::vector<KeyframeId>& ids) { return LookUpPoses(ids); }),
+      point_cloud_mapping_(
+          options.threading,
+          PointCloudOptions(settings),
+          camera_,
+          options.detector ? options.detector->classes() : ClassTable(),
+          [this](const std::vector<KeyframeId>& ids) { return LookUpPlaces(ids); }),
       detector_(options.detector
                     ? std::make_unique<DetectorThread>(
                           options.threading,
@@ -113,8 +114,7 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
   Tell(Step::kNewKeyframe, result.keyframe_seconds);
   if (std::exchange(trajectory_is_loaded_, false)) trajectory_.Write([](auto& e) { e.clear(); });
   last_time_ = image->time;
-  if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
-  if (result.relocalized) events_.Write([](Events& e) { ++e.num_relocalizations; });
+  TellOfLosses(result);
   if (result.state == TrackingState::kTracking) {
     trajectory_.Write([&](std::vector<TrajectoryEntry>& entries) {
       if (result.map_was_reset) entries.clear();
@@ -125,6 +125,29 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
     mapping_stage_.Finish();  // It failed: tell why.
   }
   return result;
+}
+
+void System::TellOfLosses(const Tracking::Result& result) {
+  if (result.map_was_reset) Log(LogLevel::kWarning, "tracking was lost at the start: map cleared");
+  if (result.piece_was_started) {
+    Log(LogLevel::kWarning,
+        "tracking was lost and the place is new: another piece of the map begins");
+  }
+  if (result.relocalized) events_.Write([](Events& e) { ++e.num_relocalizations; });
+}
+
+void System::Reset() {
+  tracking_.StartOver();
+  trajectory_.Write([](std::vector<TrajectoryEntry>& entries) { entries.clear(); });
+  trajectory_is_loaded_ = false;
+  LogNewLoops();
+  events_.Write([](Events& e) { e = {}; });
+  num_loops_logged_ = 0;
+  point_cloud_mapping_.FollowCorrection();
+}
+
+void System::SetLocalizationOnly(bool localization_only) {
+  tracking_.SetLocalizationOnly(localization_only);
 }
 
 // A repeated frame, or one that was overtaken on its way: trajectories are in the order of time.
@@ -186,10 +209,11 @@ void System::LogNewLoops() {
   num_loops_logged_ += loops.size();
   for (const LoopClosing::Loop& loop : loops) {
     std::ostringstream text;
-    text << "loop closed: keyframe " << loop.keyframe.value << " is at keyframe "
-         << loop.place.value << ", was off by " << std::fixed << std::setprecision(3)
-         << loop.distance << " m; " << loop.num_matches << " matches, " << loop.num_fused
-         << " landmarks fused";
+    text << (loop.joins_pieces ? "pieces of the map joined" : "loop closed") << ": keyframe "
+         << loop.keyframe.value << " is at keyframe " << loop.place.value << ", ";
+    if (!loop.joins_pieces)
+      text << "was off by " << std::fixed << std::setprecision(3) << loop.distance << " m; ";
+    text << loop.num_matches << " matches, " << loop.num_fused << " landmarks fused";
     Log(LogLevel::kInfo, text.str());
   }
 }
@@ -197,34 +221,46 @@ void System::LogNewLoops() {
 PointCloudMapping::Result System::Shutdown(PendingLabels pending) {
   mapping_stage_.Finish();
   loop_stage_.Finish();
-  if (pending == PendingLabels::kDrop) break_off_.request_stop();
+  if (pending == PendingLabels::kDropAndBreakOff) break_off_.request_stop();
   full_bundle_stage_.Finish();
   if (loop_settings_.final_bundle) AdjustAll();
   LogNewLoops();
   if (detector_) {
-    pending == PendingLabels::kDrop ? detector_->Cancel() : detector_->Finish();
+    pending == PendingLabels::kFinish ? detector_->Finish() : detector_->Cancel();
   }
   is_shut_down_ = true;
   return point_cloud_mapping_.Finish();
 }
 
-std::map<KeyframeId, Rigid3> System::LookUpPoses(const std::vector<KeyframeId>& ids) const {
+std::map<KeyframeId, Rigid3> System::KeyframePoses(const std::vector<KeyframeId>& ids) const {
+  return LookUpPlaces(ids).T_world_camera;
+}
+
+PointCloudMapping::Places System::LookUpPlaces(const std::vector<KeyframeId>& ids) const {
   return map_.Read([&](const Map& map) {
-    std::map<KeyframeId, Rigid3> poses;
+    const std::optional<KeyframeId> main = map.MainPiece();
+    PointCloudMapping::Places places;
     for (const KeyframeId id : ids) {
-      if (const std::optional<Rigid3> pose = map.ResolvePose(id)) poses[id] = *pose;
+      const std::optional<Rigid3> pose = map.ResolvePose(id);
+      if (!pose) continue;
+      if (map.PieceOf(id) == main) {
+        places.T_world_camera[id] = *pose;
+      } else {
+        places.apart.insert(id);
+      }
     }
-    return poses;
+    return places;
   });
 }
 
 std::vector<System::TrackedPose> System::CameraTrajectory() const {
   const auto entries = trajectory_.Read([](const std::vector<TrajectoryEntry>& e) { return e; });
   return map_.Read([&](const Map& map) {
+    const std::optional<KeyframeId> main = map.MainPiece();
     std::vector<TrackedPose> poses;
     for (const TrajectoryEntry& entry : entries) {
       const std::optional<Rigid3> T_world_reference = map.ResolvePose(entry.reference);
-      if (T_world_reference)
+      if (T_world_reference && map.PieceOf(entry.reference) == main)
         poses.push_back({entry.time, *T_world_reference * entry.T_reference_camera});
     }
     return poses;
@@ -236,6 +272,7 @@ std::vector<System::TrackedPose> System::KeyframeTrajectory() const {
     std::vector<TrackedPose> poses;
     for (const KeyframeId id : map.KeyframeIds()) {
       const Keyframe& keyframe = map.keyframe(id);
+      if (keyframe.piece != map.MainPiece()) continue;
       poses.push_back({keyframe.frame->time, keyframe.T_world_camera});
     }
     // A map may be made of several recordings, of any order.
@@ -250,10 +287,13 @@ System::Status System::status() const {
   map_.Read([&](const Map& map) {
     status.num_keyframes = map.num_keyframes();
     status.num_landmarks = map.num_landmarks();
+    status.num_pieces = map.pieces().size();
   });
   events_.Read([&](const Events& e) {
     status.num_relocalizations = e.num_relocalizations;
-    status.num_loops = e.loops.size();
+    status.num_joins = static_cast<std::size_t>(std::count_if(
+        e.loops.begin(), e.loops.end(), [](const auto& l) { return l.joins_pieces; }));
+    status.num_loops = e.loops.size() - status.num_joins;
     status.num_full_bundles = e.num_full_bundles;
   });
   status.num_voxels = point_cloud_mapping_.num_voxels();
@@ -263,6 +303,31 @@ System::Status System::status() const {
   status.dense_queue = point_cloud_mapping_.queue_size();
   status.detector_queue = detector_ ? detector_->queue_size() : 0;
   return status;
+}
+
+System::Graph System::graph(int min_shared) const {
+  const auto loops = events_.Read([](const Events& e) { return e.loops; });
+  return map_.Read([&](const Map& map) {
+    Graph graph;
+    std::map<KeyframeId, std::size_t> place;
+    for (const KeyframeId id : map.KeyframeIds()) {
+      const Keyframe& keyframe = map.keyframe(id);
+      place[id] = graph.keyframes.size();
+      graph.keyframes.push_back({id, keyframe.frame->time, keyframe.T_world_camera});
+    }
+    const auto add = [&place](KeyframeId a, KeyframeId b, std::vector<Graph::Edge>* edges) {
+      if (place.contains(a) && place.contains(b)) edges->emplace_back(place.at(a), place.at(b));
+    };
+    for (const auto& [id, index] : place) {
+      const Keyframe& keyframe = map.keyframe(id);
+      if (keyframe.parent) add(id, *keyframe.parent, &graph.tree);
+      for (const CovisibleKeyframe& other : keyframe.covisible) {
+        if (other.id < id && other.num_shared >= min_shared) add(id, other.id, &graph.covisible);
+      }
+    }
+    for (const LoopClosing::Loop& loop : loops) add(loop.keyframe, loop.place, &graph.loops);
+    return graph;
+  });
 }
 
 DetectorThread::Statistics System::detector_statistics() const {

@@ -270,23 +270,32 @@ Lighting LightBuffer::AtPixels(const SurfacePoints& points,
   return mean.Value();
 }
 
-Lighting LightBuffer::NearPixel(const SurfacePoints& points,
-                                std::size_t index,
-                                int column,
-                                int row) const {
+Lighting LightBuffer::NearPixels(const SurfacePoints& points,
+                                 std::size_t index,
+                                 const std::array<int, 4>& columns,
+                                 int row) const {
   if (is_even_) return FullLight();
   const Place place = PlaceOf(points, index);
   Mean mean;
   for (int dy = 0; dy <= (row & 1); ++dy) {
-    for (int dx = 0; dx <= (column & 1); ++dx) {
-      const std::size_t other = IndexOf(std::min(column / 2 + dx, num_columns_ - 1),
-                                        std::min(row / 2 + dy, num_rows_ - 1));
-      const auto all = [other](const VectorRow& row_of) -> Vector4 {
-        return {row_of.x[other], row_of.y[other], row_of.z[other]};
+    const int sample_row = std::min(row / 2 + dy, num_rows_ - 1);
+    for (int dx = 0; dx <= 1; ++dx) {  // The same sample twice, if a pixel lies on it.
+      std::array<std::size_t, 4> others;
+      for (std::size_t lane = 0; lane < others.size(); ++lane) {
+        const int column = (columns[lane] + dx) / 2;
+        others[lane] = IndexOf(std::min(column, num_columns_ - 1), sample_row);
+      }
+      const auto gather = [&](const FloatRow& from) {
+        return Float4(
+            _mm_setr_ps(from[others[0]], from[others[1]], from[others[2]], from[others[3]]));
+      };
+      const auto gather_vectors = [&](const VectorRow& from) -> Vector4 {
+        return {gather(from.x), gather(from.y), gather(from.z)};
       };
       Lighting light;
-      for (std::size_t i = 0; i < light.size(); ++i) light[i] = filtered_[i][other];
-      mean.Add(Affinity(place, all(p_world_), all(normal_)) + kMinWeight, light);
+      for (std::size_t i = 0; i < light.size(); ++i) light[i] = gather(filtered_[i]);
+      mean.Add(Affinity(place, gather_vectors(p_world_), gather_vectors(normal_)) + kMinWeight,
+               light);
     }
   }
   return mean.Value();

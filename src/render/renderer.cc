@@ -124,7 +124,7 @@ int EdgeBits(const SurfacePoints& points, std::size_t a, std::size_t b) {
 
 // True if a pixel looks different from one of its neighbours: else smoothing would not show.
 bool HasContrast(const cv::Mat& radiance, int column, int row) {
-  constexpr float kLevel = 8.0F / 255.0F;  // Of gamma-coded colour: a step that noise hides.
+  constexpr float kLevel = 12.0F / 255.0F;  // Of gamma-coded colour: a step that noise hides.
   const auto& center = radiance.ptr<cv::Vec3f>(row)[column];
   for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
     const int x = std::clamp(column + dx, 0, radiance.cols - 1);
@@ -232,7 +232,7 @@ class Renderer::Impl {
     }
   }
 
-  // Pixels that an edge crosses get the mean of their centre and four points more.
+  // Pixels that an edge crosses get the mean of their centre and two points more.
   void SmoothEdges(const View& view,
                    const Workspace& workspace,
                    int num_threads,
@@ -273,15 +273,17 @@ class Renderer::Impl {
     return columns;
   }
 
+  // `columns`: of the row. Four points, of two pixels, are computed together.
   void SmoothPixels(const View& view,
                     int row,
-                    const std::vector<int>& columns,
+                    std::vector<int> columns,
                     const LightBuffer& light,
                     cv::Vec3f* pixels) const {
-    constexpr int kSamples = 4;
-    // A rotated square: every sample has a column and a row of its own.
+    constexpr std::size_t kSamples = 2;
     constexpr std::array<std::array<float, 2>, kSamples> kOffsets = {
-        {{-0.125F, -0.375F}, {0.375F, -0.125F}, {0.125F, 0.375F}, {-0.375F, 0.125F}}};
+        {{-0.35F, -0.2F}, {0.35F, 0.2F}}};
+    const std::size_t num_pixels = columns.size();
+    if (num_pixels % 2 != 0) columns.push_back(columns.back());
     CameraRays rays(view, columns.size() * kSamples);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const int x = columns[i];
@@ -299,13 +301,18 @@ class Renderer::Impl {
     points.Resize(rays.batch().size());
     triangles_.Locate(rays.batch(), hits, view.pixel_angle, 0, &points);
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::array<cv::Vec3f, kSamples> samples;
-      const Lighting arriving = light.NearPixel(points, i * kSamples, columns[i], row);
-      SetColor(Shade(scene_, points, i * kSamples, eye, arriving), kSamples, samples.data());
-      cv::Vec3f& color = pixels[columns[i]];
-      for (const cv::Vec3f& sample : samples) color += sample;
-      color *= 1.0F / (kSamples + 1);
+    for (std::size_t i = 0; i < num_pixels; i += 2) {
+      std::array<cv::Vec3f, 2 * kSamples> samples;
+      const int left = columns[i];
+      const int right = columns[i + 1];
+      const Lighting arriving =
+          light.NearPixels(points, i * kSamples, {left, left, right, right}, row);
+      SetColor(Shade(scene_, points, i * kSamples, eye, arriving), 2 * kSamples, samples.data());
+      const auto smooth = [](cv::Vec3f& color, const cv::Vec3f& a, const cv::Vec3f& b) {
+        color = (color + a + b) * (1.0F / (kSamples + 1));
+      };
+      smooth(pixels[left], samples[0], samples[1]);
+      if (i + 1 < num_pixels) smooth(pixels[right], samples[2], samples[3]);
     }
   }
 

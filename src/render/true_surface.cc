@@ -3,6 +3,7 @@
 #include "render/true_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <tuple>
@@ -18,7 +19,8 @@
 namespace semslam {
 namespace {
 
-constexpr std::size_t kFramesAtOnce = 16;
+constexpr std::size_t kViewsAtOnce = 16;
+constexpr double kMaxRate = 10;  // Frames a second: those between see nothing else.
 
 struct Sample {
   std::uint64_t voxel = 0;
@@ -52,19 +54,23 @@ class Sampler {
         spacing_(spacing),
         rays_(clip.camera()),
         ray_scene_(clip.scene()),
-        triangles_(clip.scene()) {}
+        triangles_(clip.scene()),
+        step_(std::max<std::size_t>(1, std::lround(clip.options().fps / kMaxRate))) {}
 
-  // A quarter of the frame's pixels, another one in each of four successive frames.
-  Samples SampleFrame(std::size_t frame) const {
-    const Rigid3 T_world_camera = clip_.T_world_camera(frame);
+  // A clip's frames are more than are needed: every step-th is sampled.
+  std::size_t num_views() const { return (clip_.num_frames() + step_ - 1) / step_; }
+
+  // A quarter of the pixels of a frame, another one in each of four successive views.
+  Samples SampleView(std::size_t view) const {
+    const Rigid3 T_world_camera = clip_.T_world_camera(view * step_);
     Samples samples;
     RayBatch rays;
     rays.Resize(static_cast<std::size_t>(rays_.width() + 7) / 8 * 4);  // Every second pixel.
     HitBatch hits;
     SurfacePoints points;
     points.Resize(rays.size());
-    for (int y = static_cast<int>(frame / 2 % 2); y < rays_.height(); y += 2) {
-      SetRays(T_world_camera, static_cast<int>(frame % 2), y, rays);
+    for (int y = static_cast<int>(view / 2 % 2); y < rays_.height(); y += 2) {
+      SetRays(T_world_camera, static_cast<int>(view % 2), y, rays);
       ray_scene_.Intersect(rays, &hits);
       triangles_.Locate(rays, hits, 0, 0, &points);
       for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -123,6 +129,7 @@ class Sampler {
   RayTable rays_;
   RayScene ray_scene_;
   TriangleTable triangles_;
+  std::size_t step_;
 };
 
 Samples Merged(const Samples& a, const Samples& b) {
@@ -138,15 +145,15 @@ Samples Merged(const Samples& a, const Samples& b) {
 TrueSurface SampleTrueSurface(const RenderedClip& clip, double spacing) {
   const Sampler sampler(clip, spacing);
   Samples all;
-  for (std::size_t first = 0; first < clip.num_frames(); first += kFramesAtOnce) {
-    std::vector<Samples> frames(std::min(kFramesAtOnce, clip.num_frames() - first));
-    ParallelFor(frames.size(), 1, clip.options().num_threads,
+  for (std::size_t first = 0; first < sampler.num_views(); first += kViewsAtOnce) {
+    std::vector<Samples> views(std::min(kViewsAtOnce, sampler.num_views() - first));
+    ParallelFor(views.size(), 1, clip.options().num_threads,
                 [&](std::size_t begin, std::size_t end) {
                   for (std::size_t i = begin; i < end; ++i)
-                    frames[i] = sampler.SampleFrame(first + i);
+                    views[i] = sampler.SampleView(first + i);
                 });
     Samples batch;
-    for (const Samples& frame : frames) batch = Merged(batch, frame);
+    for (const Samples& view : views) batch = Merged(batch, view);
     all = Merged(all, batch);
   }
   TrueSurface surface;

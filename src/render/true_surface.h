@@ -21,9 +21,10 @@ struct TrueSurface {
 
 inline constexpr double kTrueSurfaceSpacing = 0.005;  // Metres.
 
-// Samples what the depth sensor could see in some frame: within its range, and not at a grazing
-// angle. Of every voxel of size `spacing` the point nearest to its centre, for each instance in it;
-// ordered by voxel, so that the same clip gives the same bytes on any number of threads.
+// Samples what the depth sensor could see in some frame, within its range and not at a grazing
+// angle; of a clip with more than ten frames a second, about ten of them. Of every voxel of size
+// `spacing` the point nearest to its centre, for each instance in it; ordered by voxel, so that the
+// same clip gives the same bytes on any number of threads.
 TrueSurface SampleTrueSurface(const RenderedClip& clip, double spacing = kTrueSurfaceSpacing);
 
 // Writes the samples as a PCD file: XYZ, normal, label = instance. Throws InputError.

@@ -14,6 +14,7 @@
 #include "semslam/base/error.h"
 
 #include "semantics/darknet_config.h"
+#include "semantics/dnn_backend.h"
 #include "semantics/letterbox.h"
 
 namespace semslam {
@@ -80,8 +81,7 @@ class DarknetDetector::Network {
     const std::vector<char> weights = ReadBytes(options.weights);
     try {
       net_ = cv::dnn::readNetFromDarknet(text.data(), text.size(), weights.data(), weights.size());
-      net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-      net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
+      SelectBackend(net_, options.backend, options.target);
       output_names_ = net_.getUnconnectedOutLayersNames();
       Warm(config);
     } catch (const cv::Exception& error) {
@@ -130,23 +130,6 @@ class DarknetDetector::Network {
   int height_ = 0;
 };
 
-void DarknetDetector::Options::Validate() const {
-  const auto require = [](bool holds, const std::string& what) {
-    if (!holds) throw InputError("detector: " + what);
-  };
-  const auto in_unit = [](float value) { return value >= 0 && value <= 1; };
-  require(
-      input_size >= 0 && input_size % 32 == 0 && input_size <= 4096,
-      "input_size: expected 0 or a multiple of 32 up to 4096, found " + std::to_string(input_size));
-  require(score_threshold > 0 && score_threshold <= 1,
-          "score_threshold: expected 0 < score <= 1, found " + std::to_string(score_threshold));
-  require(in_unit(nms_threshold),
-          "nms_threshold: expected a number in [0, 1], found " + std::to_string(nms_threshold));
-  require(in_unit(min_class_score) && min_class_score <= score_threshold,
-          "min_class_score: expected a number from 0 to score_threshold, found " +
-              std::to_string(min_class_score));
-}
-
 DarknetDetector::DarknetDetector(const Options& options, ClassTable classes)
     : options_(options), classes_(std::move(classes)) {
   options_.Validate();
@@ -158,8 +141,8 @@ DarknetDetector::~DarknetDetector() = default;
 std::vector<Detection> DarknetDetector::Detect(const RgbdImage& image) {
   const cv::Mat& color = image.color;
   SEMSLAM_CHECK(!color.empty() && color.type() == CV_8UC3) << "type " << color.type();
-  const Letterbox letterbox =
-      Letterbox::Fit(color.cols, color.rows, network_->width(), network_->height());
+  const auto place = options_.letterbox ? Letterbox::Fit : Letterbox::Stretch;
+  const Letterbox letterbox = place(color.cols, color.rows, network_->width(), network_->height());
   const std::vector<cv::Mat> outputs = network_->Forward(MakeBlob(color, letterbox));
   std::vector<Detection> detections =
       DecodeAll(outputs, static_cast<int>(classes_.size()), letterbox, options_.score_threshold);

@@ -28,6 +28,11 @@ Letterbox Letterbox::Fit(int image_width, int image_height, int input_width, int
   return fit;
 }
 
+Letterbox Letterbox::Stretch(int image_width, int image_height, int input_width, int input_height) {
+  SEMSLAM_CHECK(image_width > 0 && image_height > 0) << image_width << 'x' << image_height;
+  return {image_width, image_height, input_width, input_height, input_width, input_height, 0, 0};
+}
+
 ImageBox Letterbox::ToImage(float centre_x, float centre_y, float width, float height) const {
   const float scale_x = static_cast<float>(image_width) / static_cast<float>(fitted_width);
   const float scale_y = static_cast<float>(image_height) / static_cast<float>(fitted_height);

@@ -17,16 +17,18 @@
 namespace semslam {
 namespace {
 
-// The keyframe, or where it was erased as redundant, the kept one whose view is nearest to its own
-// (a radian counts as a metre). Null if the map was cleared since.
+// The keyframe, or where it was erased as redundant, the kept one of its piece whose view is
+// nearest to its own (a radian counts as a metre). Null if the map was cleared since.
 const Keyframe* NearestKeptKeyframe(const Map& map, KeyframeId id) {
   if (const Keyframe* keyframe = map.FindKeyframe(id)) return keyframe;
   const std::optional<Rigid3> T_world_erased = map.ResolvePose(id);
   if (!T_world_erased) return nullptr;
+  const std::optional<KeyframeId> piece = map.PieceOf(id);
   const Keyframe* nearest = nullptr;
   double least_difference = std::numeric_limits<double>::infinity();
   for (const KeyframeId candidate : map.KeyframeIds()) {
     const Keyframe& keyframe = map.keyframe(candidate);
+    if (keyframe.piece != piece) continue;
     const double difference =
         (keyframe.T_world_camera.translation - T_world_erased->translation).norm() +
         RotationAngle(keyframe.T_world_camera, *T_world_erased);
@@ -63,6 +65,7 @@ Tracking::Tracking(const Options& options,
                baseline_times_fx,
                vocabulary_,
                map),
+      localization_only_(options.localization_only),
       keyframe_policy_(options.keyframes) {
   options_.Validate();
   SEMSLAM_CHECK(vocabulary_ != nullptr);
@@ -74,21 +77,39 @@ void Tracking::StartInLoadedMap() {
     const std::vector<KeyframeId> ids = map.KeyframeIds();
     if (ids.empty()) return;
     state_ = TrackingState::kLost;
-    map_is_loaded_ = true;
+    newest_loaded_ = ids.back();
     last_reference_ = ids.back();
     epoch_ = map.epoch();
   });
 }
 
+void Tracking::StartOver() {
+  map_.Write([](Map& map) { map.Clear(); });
+  state_ = TrackingState::kNotInitialized;
+  newest_loaded_.reset();
+  sightings_.clear();
+  num_frames_lost_ = num_good_frames_lost_ = 0;
+}
+
 Tracking::Result Tracking::Track(std::shared_ptr<const Frame> frame, const MapperLoad& mapper) {
   SEMSLAM_CHECK(frame != nullptr);
-  if (state_ == TrackingState::kNotInitialized) return Initialize(std::move(frame));
+  if (state_ == TrackingState::kNotInitialized) return WithSight(Initialize(frame), frame);
   const Stopwatch stopwatch;
   first_pose_seconds_ = local_map_seconds_ = 0;
-  Result result = TrackInMap(std::move(frame), mapper);
+  Result result = TrackInMap(frame, mapper);
   result.first_pose_seconds = first_pose_seconds_;
   result.local_map_seconds = local_map_seconds_;
   result.keyframe_seconds = stopwatch.Seconds() - first_pose_seconds_ - local_map_seconds_;
+  return WithSight(std::move(result), std::move(frame));
+}
+
+// Tells what the frame shows, for those who watch.
+Tracking::Result Tracking::WithSight(Result result, std::shared_ptr<const Frame> frame) const {
+  result.frame = std::move(frame);
+  if (result.state != TrackingState::kTracking) return result;
+  result.shows_landmark.reserve(last_.points.size());
+  for (const std::optional<TrackedPoint>& point : last_.points)
+    result.shows_landmark.push_back(point && point->landmark);
   return result;
 }
 
@@ -128,10 +149,22 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
+  if (localization_only_ || !CanStartFrom(*frame)) return {};
+  return StartPiece(std::move(frame), Rigid3());
+}
+
+bool Tracking::CanStartFrom(const Frame& frame) const {
+  if (static_cast<int>(frame.keypoints.size()) <= options_.min_features_to_start) return false;
+  const auto num_points =
+      std::count_if(frame.keypoints.begin(), frame.keypoints.end(),
+                    [](const Keypoint& keypoint) { return keypoint.has_depth(); });
+  return num_points >= options_.min_close_points;
+}
+
+Tracking::Result Tracking::StartPiece(std::shared_ptr<const Frame> frame,
+                                      const Rigid3& T_world_camera) {
   Result result;
-  if (options_.localization_only) return result;
-  if (static_cast<int>(frame->keypoints.size()) <= options_.min_features_to_start) return result;
-  TrackedFrame first = EmptyFrame(std::move(frame), Rigid3());
+  TrackedFrame first = EmptyFrame(std::move(frame), T_world_camera);
   const NewPointOptions all_points{.close_depth_m = std::numeric_limits<double>::infinity(),
                                    .min_count = 0};
   const KeyframeId id = map_.Write([&](Map& map) {
@@ -146,12 +179,13 @@ Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
   state_ = TrackingState::kTracking;
   num_frames_since_keyframe_ = 0;
   num_frames_tracked_ = 1;
-  num_frames_lost_ = 0;
+  num_frames_lost_ = num_good_frames_lost_ = 0;
   last_reference_ = id;
   T_reference_last_ = Rigid3();
   T_last_next_.reset();
   num_frames_since_found_ = options_.keyframes.max_frames_between;
   result.state = state_;
+  result.T_world_camera = T_world_camera;
   result.reference_keyframe = id;
   result.num_inliers = first.NumLandmarks();
   result.new_keyframe = id;

@@ -37,15 +37,15 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
     T_last_next_ = last_.T_world_camera.Inverse() * current.T_world_camera;
   }
   state_ = TrackingState::kTracking;
-  num_frames_lost_ = 0;
+  num_frames_lost_ = num_good_frames_lost_ = 0;
   ++num_frames_tracked_;
   ++num_frames_since_keyframe_;
 
   Result result;
   last_reference_ = local_map_.reference_keyframe();
-  if (options_.localization_only) sightings_.clear();
-  if (!options_.localization_only && keyframe_policy_.WantsKeyframe(Assess(
-                                         current, located.num_inliers, last_reference_, mapper))) {
+  if (localization_only_) sightings_.clear();
+  if (!localization_only_ && keyframe_policy_.WantsKeyframe(
+                                 Assess(current, located.num_inliers, last_reference_, mapper))) {
     last_reference_ = InsertKeyframe(&current);
     T_reference_last_ = Rigid3();
     result.new_keyframe = last_reference_;
@@ -96,7 +96,9 @@ KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
   const int num_close = now.num_close_tracked + now.num_close_untracked;
   const double distance = num_close > 0 ? sum_of_depths / num_close : options_.close_depth_m;
   map_.Read([&](const Map& map) {
-    now.num_keyframes = static_cast<int>(map.num_keyframes());
+    if (const std::optional<KeyframeId> piece = map.PieceOf(reference)) {
+      now.num_keyframes = static_cast<int>(map.pieces().at(*piece));
+    }
     const int min_measurements = now.num_keyframes <= 2 ? 2 : 3;
     const Keyframe* const keyframe = map.FindKeyframe(reference);
     if (keyframe == nullptr) return;
@@ -128,7 +130,7 @@ KeyframeId Tracking::InsertKeyframe(TrackedFrame* current) {
       const Eigen::Vector3d p_world = BackProject(camera_, *current, feature);
       current->points[feature] = TrackedPoint{map.AddLandmark(p_world, {id, feature}), p_world};
     }
-    map.ChooseParent(id);
+    map.ChooseParent(id, map.NearestKeptAncestor(last_reference_));
     return id;
   });
 }
@@ -146,17 +148,48 @@ Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   T_last_next_.reset();
   sightings_.clear();
   state_ = TrackingState::kLost;
+  ++num_frames_lost_;
+  num_good_frames_lost_ = CanStartFrom(*frame) ? num_good_frames_lost_ + 1 : 0;
+  if (num_frames_lost_ >= num_frames_tracked_ && !localization_only_ && !IsWorthKeeping()) {
+    return DropPiece(std::move(frame));
+  }
   Result result;
   result.state = state_;
-  ++num_frames_lost_;
-  const std::size_t num_keyframes = map_.Read([](const Map& map) { return map.num_keyframes(); });
-  const bool is_worth_keeping = map_is_loaded_ || num_keyframes > options_.min_keyframes_to_keep;
-  if (is_worth_keeping || num_frames_lost_ < num_frames_tracked_) return result;
-  // More was lost than was mapped: a fresh start is better; this frame may serve as the first.
-  map_.Write([](Map& map) { map.Clear(); });
-  state_ = TrackingState::kNotInitialized;
-  result = Initialize(std::move(frame));
-  result.map_was_reset = true;
+  if (localization_only_ || num_good_frames_lost_ < options_.max_frames_lost) return result;
+  result = StartPiece(std::move(frame), last_.T_world_camera);
+  result.piece_was_started = true;
+  return result;
+}
+
+// Whether the piece in which tracking was lost is large enough, or came from elsewhere.
+bool Tracking::IsWorthKeeping() const {
+  return map_.Read([&](const Map& map) {
+    const std::optional<KeyframeId> piece = map.PieceOf(last_reference_);
+    if (!piece) return true;  // It is dropped already.
+    return map.pieces().at(*piece) > options_.min_keyframes_to_keep ||
+           (newest_loaded_ && !(*newest_loaded_ < *piece));
+  });
+}
+
+// More was lost than was mapped: a fresh start is better; this frame may serve as the first.
+Tracking::Result Tracking::DropPiece(std::shared_ptr<const Frame> frame) {
+  const bool is_empty = map_.Write([&](Map& map) {
+    const std::optional<KeyframeId> piece = map.PieceOf(last_reference_);
+    if (piece && map.pieces().size() > 1) {
+      map.ErasePiece(*piece);
+    } else if (piece) {
+      map.Clear();
+    }
+    return map.num_keyframes() == 0;
+  });
+  Result result;
+  if (is_empty) {
+    state_ = TrackingState::kNotInitialized;
+    result = Initialize(std::move(frame));
+    result.map_was_reset = true;
+  } else {
+    result.state = state_;  // There are other pieces, in one of which it may be found.
+  }
   return result;
 }
 

@@ -7,7 +7,7 @@ import shutil
 import unittest
 
 import harness
-from harness import CLIP, NUM_FRAMES, EndToEndTest, run
+from harness import CLIP, NUM_FRAMES, SOURCE, EndToEndTest, run
 
 TRUTH = ["groundtruth.txt", "instances.json", "surface.pcd"]
 RESULT = ["CameraTrajectory.txt", "segmentation.pcd", "semantic_map.pcd", "objects.json"]
@@ -188,6 +188,38 @@ class EvaluateTest(EndToEndTest):
     def test_an_unknown_method_is_an_error(self):
         self.assert_error(run("evaluate_segmentation", CLIP, "--methods", "magic"),
                           "evaluate_segmentation", "magic")
+
+
+class EvaluateDetectorTest(EndToEndTest):
+
+    shipped = [SOURCE / "config" / "detector" / f"desk.{ending}"
+               for ending in ("cfg", "weights", "names")]
+
+    def evaluate(self, *arguments):
+        return run("evaluate_detector", *arguments, "--network", *self.shipped, "--every", 10)
+
+    def test_the_shipped_detector_is_measured(self):
+        result = self.evaluate(CLIP)
+        self.assert_success(result)
+        self.assertEqual(result.stderr, "")
+        for name in ["cup", "keyboard", "tvmonitor", "mouse"]:
+            self.assertRegex(result.stdout, rf"(?m)^{name} +\d+ +([01]\.\d+|-)$")
+        self.assertRegex(result.stdout, r"(?m)^mean +[01]\.\d+$")
+        self.assertRegex(result.stdout, r"\d+ pictures, median \d+\.\d ms")
+
+    def test_a_clip_without_truth_is_refused(self):
+        clip = self.copy_clip(num_frames=2)
+        for name in ["instances.json", "groundtruth.txt", "labels"]:
+            (clip / name).symlink_to(CLIP / name)
+        self.assert_success(self.evaluate(clip))
+        for name in ["instances.json", "groundtruth.txt", "labels", "settings.yaml"]:
+            with self.subTest(name):
+                kept = (clip / name).rename(self.folder / "kept")
+                result = self.evaluate(clip)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(name, result.stderr)
+                kept.rename(clip / name)
+
 
 
 if __name__ == "__main__":

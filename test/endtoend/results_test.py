@@ -5,6 +5,8 @@ import collections
 import itertools
 import json
 import math
+import subprocess
+import sys
 import unittest
 
 import formats
@@ -180,6 +182,38 @@ class ResultsTest(EndToEndTest):
                             f"{name} differs")
         self.assertEqual(json.loads((self.output / "objects.json").read_text())["objects"], [])
 
+    def test_the_objects_are_as_their_schema_says(self):
+        schema = json.loads((harness.SOURCE / "docs/objects.schema.json").read_text())
+        root = self.objects()
+        self.assertGreater(len(root["objects"]), 0)
+        self.assertEqual(schema_faults(root, schema, schema["$defs"]), [])
+        root["objects"][0]["box"]["size"] = [1, 2]
+        self.assertEqual(schema_faults(root, schema, schema["$defs"]),
+                         ["/objects/0/box/size: 2 items"])
+
+    def test_objects_stand_on_segments_of_the_map(self):
+        root = self.objects()
+        segments = set(formats.read_ply(self.first / "semantic_map.ply")["segment"])
+        ids = {item["id"] for item in root["objects"]}
+        supports = [item["supported_by"] for item in root["objects"]]
+        self.assertTrue(any(support["segment"] for support in supports))
+        for support in supports:
+            self.assertIn(support["segment"], segments | {0})
+            self.assertIn(support["object"], ids | {0})
+
+    def test_the_example_reader_lists_every_object(self):
+        reader = harness.SOURCE / "Examples/python/read_objects.py"
+        listed = subprocess.run([sys.executable, reader, self.first / "objects.json"],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        rows = [line.split() for line in listed.stdout.splitlines()[1:]]
+        self.assertEqual([int(row[0]) for row in rows],
+                         [item["id"] for item in self.objects()["objects"]])
+        missing = subprocess.run([sys.executable, reader, self.first / "nothing.json"],
+                                 capture_output=True, text=True, check=False)
+        self.assertEqual(missing.returncode, 1)
+        self.assertRegex(missing.stderr, r"^read_objects\.py: .*nothing\.json.*\n$")
+
     def test_only_classes_of_interest_are_in_the_map(self):
         name = self.objects()["objects"][0]["class"]
         result = self.map("--detections", CLIP / "detections", "--classes", name)
@@ -189,6 +223,34 @@ class ResultsTest(EndToEndTest):
         self.assertEqual({item["class"] for item in root["objects"]}, {name})
         labels = set(formats.read_ply(self.output / "semantic_map.ply")["label"])
         self.assertLessEqual(labels, {0, root["classes"][0]["label"]})
+
+
+TYPES = {"object": dict, "array": list, "string": str, "number": (int, float), "integer": int}
+
+
+def schema_faults(value, schema, definitions, where=""):
+    """What breaks the keywords that the schema uses."""
+    if "$ref" in schema:
+        schema = definitions[schema["$ref"].rsplit("/", 1)[1]]
+    if "type" in schema and not isinstance(value, TYPES[schema["type"]]):
+        return [f"{where}: {value!r}"]
+    faults = []
+    if "const" in schema and value != schema["const"]:
+        faults.append(f"{where}: {value!r}")
+    if "minimum" in schema and value < schema["minimum"]:
+        faults.append(f"{where}: {value}")
+    if "maximum" in schema and value > schema["maximum"]:
+        faults.append(f"{where}: {value}")
+    if "minItems" in schema and not schema["minItems"] <= len(value) <= schema["maxItems"]:
+        faults.append(f"{where}: {len(value)} items")
+    faults += [f"{where}: no {name}" for name in schema.get("required", []) if name not in value]
+    for name, part in schema.get("properties", {}).items():
+        if name in value:
+            faults += schema_faults(value[name], part, definitions, f"{where}/{name}")
+    if "items" in schema:
+        for i, item in enumerate(value):
+            faults += schema_faults(item, schema["items"], definitions, f"{where}/{i}")
+    return faults
 
 
 def in_box(point, box, tolerance):

@@ -6,13 +6,15 @@ import unittest
 from harness import BIN, CLIP, NUM_FRAMES, VOCABULARY, EndToEndTest, run
 
 PROGRAMS = ["rgbd_tum", "render_clip", "evaluate_trajectory", "evaluate_map",
-            "evaluate_segmentation", "segment_cloud", "map_info", "benchmark_slam",
+            "evaluate_detector", "evaluate_segmentation", "segment_cloud", "map_info", "benchmark_slam",
             "train_vocabulary"]
 if (BIN / "rgbd_openni2").exists():  # Only where OpenNI2 is installed.
     PROGRAMS.append("rgbd_openni2")
+if (BIN / "view_map").exists():  # Only where the viewer's packages are installed.
+    PROGRAMS.append("view_map")
 OPTIONS = ["--output", "--network", "--detections", "--save-detections", "--classes", "--score",
-           "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
-           "--localization", "--help", "--version"]
+           "--drop-late", "--no-semantics", "--sequential", "--realtime", "--load-map", "--save-map",
+           "--localization", "--viewer", "--viewer-stays", "--help", "--version"]
 
 
 class UsageTest(EndToEndTest):

@@ -165,51 +165,6 @@ TEST_F(CloudIoTest, PclReadsThePlyFileWithAllItsColumns) {
   }
 }
 
-TEST_F(CloudIoTest, ReadsBackThePlyFileItWrote) {
-  const Sample sample = MakeSample(1000);
-  const auto path = folder_.path() / "cloud.ply";
-  WritePly(path, sample.View());
-  const CloudColumns cloud = ReadPly(path);
-  EXPECT_EQ(cloud.positions, sample.positions);
-  EXPECT_EQ(cloud.normals, sample.normals);
-  EXPECT_EQ(cloud.colors, sample.colors);
-  EXPECT_EQ(cloud.labels, sample.labels);
-}
-
-TEST_F(CloudIoTest, ReadsPlyFilesOfPclInTextAndBytes) {
-  pcl::PointCloud<pcl::PointXYZRGB> expected;
-  for (int i = 0; i < 50; ++i) {
-    expected.push_back(pcl::PointXYZRGB(0.5F * static_cast<float>(i), -1.25F, 3.0F,
-                                        static_cast<std::uint8_t>(i), 20, 30));
-  }
-  const auto path = folder_.path() / "pcl.ply";
-  for (const bool is_binary : {false, true}) {
-    pcl::io::savePLYFile(path.string(), expected, is_binary);
-    const CloudColumns cloud = ReadPly(path);
-    ASSERT_EQ(cloud.positions.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      ASSERT_EQ(cloud.positions[i], expected[i].getVector3fMap());
-      ASSERT_EQ(cloud.colors[i], (Rgb{expected[i].r, expected[i].g, expected[i].b}));
-    }
-  }
-}
-
-TEST_F(CloudIoTest, PlyFilesThatAreNoneOrEndEarlyAreRefused) {
-  const auto path = folder_.path() / "broken.ply";
-  WritePly(path, MakeSample(10).View());
-  const std::string bytes = testing::ReadAll(path);
-  const auto error_of = [&](const std::string& content) {
-    folder_.Write("broken.ply", content);
-    return InputErrorOf([&] { ReadPly(path); });
-  };
-  EXPECT_THAT(error_of(bytes.substr(0, bytes.size() - 1)), HasSubstr("end of the file"));
-  EXPECT_THAT(error_of(bytes.substr(0, 60)), HasSubstr("end_header"));
-  EXPECT_THAT(error_of("# .PCD v0.7"), HasSubstr("starts with \"ply\""));
-  EXPECT_THAT(
-      error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
-      HasSubstr("x, y and z"));
-}
-
 TEST_F(CloudIoTest, ReadsEveryEncodingOfPcl) {
   pcl::PointCloud<pcl::PointXYZRGBL> cloud;
   for (std::size_t i = 0; i < sample_.positions.size(); ++i) {

@@ -12,6 +12,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "semslam/io/level_frame.h"
+#include "semslam/io/view_camera.h"
+
 #include "io/point_renderer.h"
 #include "support/file_size_limit.h"
 #include "support/files.h"

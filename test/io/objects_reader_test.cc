@@ -26,6 +26,8 @@ ObjectRecord SomeObject() {
   object.num_points = 3456;
   object.centroid = {1, 2, 3};
   object.box = {{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {4, 5, 6}}, {0.1, 0.2, 0.3}};
+  object.supporting_segment = 11;
+  object.supporting_object = 2;
   return object;
 }
 
@@ -49,6 +51,8 @@ TEST(ObjectsReader, ReadsWhatWasWritten) {
   EXPECT_LT(RotationAngle(object.box.T_world_box, expected.box.T_world_box), 1e-9);
   EXPECT_EQ(object.box.T_world_box.translation, expected.box.T_world_box.translation);
   EXPECT_LT((object.box.half_size - expected.box.half_size).norm(), 1e-12);
+  EXPECT_EQ(object.supporting_segment, expected.supporting_segment);
+  EXPECT_EQ(object.supporting_object, expected.supporting_object);
 }
 
 TEST(ObjectsReader, NamesTheFieldThatIsWrong) {
@@ -63,7 +67,7 @@ TEST(ObjectsReader, NamesTheFieldThatIsWrong) {
     return InputErrorOf([&] { ReadObjects(path); });
   };
   EXPECT_THAT(error_with("{", "["), HasSubstr("objects.json: expected JSON, found an error at"));
-  EXPECT_THAT(error_with("semslam objects 1", "objects 2"), HasSubstr("format: expected semslam"));
+  EXPECT_THAT(error_with("semslam objects 2", "objects 1"), HasSubstr("format: expected semslam"));
   EXPECT_THAT(error_with("\"classes\"", "\"klasses\""), HasSubstr("classes: missing"));
   EXPECT_THAT(error_with("\"label\": 7", "\"label\": 1"), HasSubstr("classes[1].label: expected"));
   EXPECT_THAT(error_with("255", "256"), HasSubstr("classes[0].color_rgb: expected values"));

@@ -176,6 +176,64 @@ TEST_F(LoopClosingTest, APlaceThatLooksAlikeButIsBuiltDifferentlyIsNoLoop) {
   for (const KeyframeCopy& copy : frames) EXPECT_FALSE(loop_closing.Process(copy.id));
 }
 
+TEST_F(LoopClosingTest, PiecesOfTheMapAreJoinedOnceAKeyframeOfOneShowsAPlaceOfTheOther) {
+  RingWalk walk({.lost_before = 20});
+  std::size_t num_pieces_before = 0;
+  while (!walk.is_finished()) {
+    walk.AddKeyframe();
+    num_pieces_before = std::max(num_pieces_before,
+                                 walk.map().Read([](const Map& m) { return m.pieces().size(); }));
+  }
+  EXPECT_EQ(num_pieces_before, 2u);
+  EXPECT_GT(walk.LargestError(), 0.1) << "the second piece is anywhere";
+  const auto loop_closing = MakeLoopClosing(walk);
+  std::vector<LoopClosing::Loop> joins;
+  for (std::uint32_t i = 0; i < 46; ++i) {
+    if (const auto loop = loop_closing->Process({i})) joins.push_back(*loop);
+    walk.map().Read([](const Map& map) { map.CheckConsistency(); });
+  }
+  ASSERT_FALSE(joins.empty());
+  EXPECT_TRUE(joins[0].joins_pieces);
+  EXPECT_GT(joins[0].num_fused, 40);
+  walk.map().Read([&](const Map& map) {
+    EXPECT_EQ(map.pieces().size(), 1u);
+    EXPECT_EQ(map.MainPiece(), KeyframeId{0});
+    EXPECT_TRUE(map.keyframe(KeyframeId{20}).starts_piece) << "nothing was seen on the way to it";
+  });
+  EXPECT_LT(walk.LargestError(), 0.05);
+  EXPECT_THAT(walk.PoseOf(0), Rigid3Near(Rigid3(), 0, 0)) << "the older piece stays";
+}
+
+TEST_F(LoopClosingTest, AKeyframeOfTheOlderPieceMovesTheYoungerOne) {
+  // The camera goes on in the older piece, and sees what only the younger one knew.
+  RingWalk walk({.num_keyframes = 40, .lost_before = 20});
+  AddAll(walk);
+  const Rigid3 anywhere = walk.PoseOf(30);
+  const auto loop_closing = MakeLoopClosing(walk);
+  // From the other side: keyframes of the first piece look for places.
+  std::optional<LoopClosing::Loop> join;
+  for (std::uint32_t i = 0; i < 20 && !join; ++i) join = loop_closing->Process({i});
+  ASSERT_TRUE(join);
+  EXPECT_TRUE(join->joins_pieces);
+  EXPECT_LT(join->keyframe.value, 20u);
+  EXPECT_GE(join->place.value, 20u);
+  walk.map().Read([](const Map& map) { map.CheckConsistency(); });
+  EXPECT_LT(walk.LargestError(), 0.05);
+  EXPECT_GT((walk.PoseOf(30).translation - anywhere.translation).norm(), 0.1);
+}
+
+TEST_F(LoopClosingTest, PiecesThatHaveNothingInCommonStayApart) {
+  RingWalk walk({.num_keyframes = 30, .lost_before = 19});
+  AddAll(walk);
+  walk.map().Write([](Map& map) {
+    // As if the camera had been carried: what leads from the first places to the last is unknown.
+    for (std::uint32_t i = 5; i < 19; ++i) map.SetWords({i}, nullptr);
+  });
+  const auto loop_closing = MakeLoopClosing(walk);
+  for (std::uint32_t i = 19; i < 30; ++i) EXPECT_FALSE(loop_closing->Process({i})) << i;
+  walk.map().Read([](const Map& map) { EXPECT_EQ(map.pieces().size(), 2u); });
+}
+
 TEST_F(LoopClosingTest, KeyframesThatAreGoneOrWithoutWordsArePassedOver) {
   RingWalk walk({.num_keyframes = 5});
   AddAll(walk);

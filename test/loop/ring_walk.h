@@ -25,6 +25,7 @@ class RingWalk {
     // Error of each step: rotation vector, translation.
     Vector6d drift_a_step = Vector6d::Zero();
     double pixel_noise = 0.5;
+    int lost_before = -1;  // This keyframe is the first of another piece of the map.
   };
 
   explicit RingWalk(const Options& options)
@@ -37,7 +38,10 @@ class RingWalk {
   KeyframeId AddKeyframe() {
     const int i = num_added_++;
     Rigid3 T_world_camera;
-    if (i > 0) {
+    if (i == options_.lost_before) {
+      landmark_of_.clear();
+      T_world_camera = PoseOf(i - 1);
+    } else if (i > 0) {
       // From where the map has the last one now: it may have been corrected.
       T_world_camera =
           PoseOf(i - 1) * Retract(Truth(i - 1).Inverse() * Truth(i), options_.drift_a_step);
@@ -93,7 +97,7 @@ class RingWalk {
       }
       map.SetWords(
           id, std::make_shared<const BagOfWords>(vocabulary_->Transform(view.frame->descriptors)));
-      map.ChooseParent(id);
+      if (number != options_.lost_before) map.ChooseParent(id);
     });
   }
 

@@ -47,7 +47,21 @@ class MapArchiveTest : public ::testing::Test {
     map.EraseLandmark(LandmarkId{50});
     map.CountSightings(LandmarkId{4}, 7, 5);
     map.EraseKeyframe(KeyframeId{4});
+    map.TieByLoop(KeyframeId{5}, KeyframeId{1});
+    AddPiece(map);
+    const KeyframeId joined = AddPiece(map);
+    map.JoinPieces(KeyframeId{0}, joined);
     return map;
+  }
+  // Two keyframes that have nothing to do with the others.
+  KeyframeId AddPiece(Map& map) {
+    const KeyframeId first = map.AddKeyframe(RandomFrame(40, random_), RandomPose(random_));
+    for (int feature = 0; feature < 20; ++feature)
+      map.AddLandmark({0.1 * feature, 0.2, 2}, {first, feature});
+    const KeyframeId second = map.AddKeyframe(RandomFrame(40, random_), RandomPose(random_));
+    ShareWithPrevious(map, second);
+    map.ChooseParent(second);
+    return first;
   }
   static void ShareWithPrevious(Map& map, KeyframeId id) {
     const KeyframeId previous{id.value - 1};
@@ -77,6 +91,8 @@ TEST_F(MapArchiveTest, GivesBackTheSameMap) {
   copy.CheckConsistency();
   EXPECT_EQ(Bytes(copy), Bytes(map));
   EXPECT_EQ(copy.KeyframeIds(), map.KeyframeIds());
+  EXPECT_EQ(copy.pieces(), map.pieces());
+  EXPECT_EQ(copy.keyframe(KeyframeId{1}).loop_partners, map.keyframe(KeyframeId{1}).loop_partners);
   EXPECT_EQ(copy.LandmarkIds(), map.LandmarkIds());
   for (const KeyframeId id : map.KeyframeIds()) {
     const Keyframe& expected = map.keyframe(id);
@@ -105,8 +121,8 @@ TEST_F(MapArchiveTest, FindsPlacesInTheCopy) {
 
 TEST_F(MapArchiveTest, IdsGoOnCountingInTheCopy) {
   Map copy = Parse(Bytes(MakeMap()));
-  EXPECT_EQ(copy.AddKeyframe(RandomFrame(5, random_), {}), KeyframeId{6});
-  EXPECT_EQ(copy.AddLandmark({0, 0, 1}, {KeyframeId{6}, 0}), LandmarkId{120});
+  EXPECT_EQ(copy.AddKeyframe(RandomFrame(5, random_), {}), KeyframeId{10});
+  EXPECT_EQ(copy.AddLandmark({0, 0, 1}, {KeyframeId{10}, 0}), LandmarkId{160});
 }
 
 TEST_F(MapArchiveTest, AnEmptyAndAClearedMapAreMapsToo) {
@@ -115,7 +131,7 @@ TEST_F(MapArchiveTest, AnEmptyAndAClearedMapAreMapsToo) {
   map.Clear();
   Map copy = Parse(Bytes(map));
   EXPECT_EQ(copy.num_keyframes(), 0u);
-  EXPECT_EQ(copy.AddKeyframe(RandomFrame(5, random_), {}), KeyframeId{6});
+  EXPECT_EQ(copy.AddKeyframe(RandomFrame(5, random_), {}), KeyframeId{10});
 }
 
 TEST_F(MapArchiveTest, DamagedBytesAreRefusedOrMakeAConsistentMap) {

@@ -267,5 +267,92 @@ TEST_F(MapTest, BrokenContractsThrowAndLeaveTheMapAsItWas) {
   EXPECT_EQ(map_.FindLandmark(landmark), nullptr) << "two measurements do not keep it";
 }
 
+class MapPiecesTest : public MapTest {
+ protected:
+  KeyframeId StartPiece() {
+    return map_.AddKeyframe(RandomFrame(100, random_, 1), RandomPose(random_));
+  }
+  // A keyframe that sees what the older one sees.
+  KeyframeId Follow(KeyframeId older) {
+    const KeyframeId id = StartPiece();
+    Share({older, id}, 3);
+    map_.ChooseParent(id);
+    return id;
+  }
+  void TearDown() override { map_.CheckConsistency(); }
+};
+
+TEST_F(MapPiecesTest, AKeyframeBelongsToThePieceOfItsParent) {
+  const KeyframeId a = StartPiece();
+  const KeyframeId b = StartPiece();
+  const KeyframeId a2 = Follow(a);
+  const KeyframeId b2 = Follow(b);
+  EXPECT_EQ(map_.PieceOf(a2), a);
+  EXPECT_EQ(map_.PieceOf(b2), b);
+  EXPECT_THAT(map_.pieces(), ElementsAre(std::pair(a, 2u), std::pair(b, 2u)));
+  EXPECT_EQ(map_.MainPiece(), a) << "the oldest of equals";
+  Follow(b2);
+  EXPECT_EQ(map_.MainPiece(), b) << "the one with most keyframes";
+}
+
+TEST_F(MapPiecesTest, AnErasedKeyframeKeepsItsPiece) {
+  const KeyframeId a = StartPiece();
+  const KeyframeId b = StartPiece();
+  const KeyframeId b2 = Follow(b);
+  map_.EraseKeyframe(b2);
+  EXPECT_EQ(map_.PieceOf(b2), b);
+  EXPECT_EQ(map_.NearestKeptAncestor(b2), b);
+  EXPECT_THAT(map_.pieces(), ElementsAre(std::pair(a, 1u), std::pair(b, 1u)));
+}
+
+TEST_F(MapPiecesTest, JoinedPiecesAreOneAndRememberWhereNothingWasMeasured) {
+  const KeyframeId a = StartPiece();
+  const KeyframeId a2 = Follow(a);
+  const KeyframeId b = StartPiece();
+  const KeyframeId b2 = Follow(b);
+  const KeyframeId a3 = Follow(a2);
+  map_.JoinPieces(a, b);
+  for (const KeyframeId id : {a, a2, a3, b, b2}) EXPECT_EQ(map_.PieceOf(id), a);
+  EXPECT_EQ(map_.keyframe(b).parent, a2) << "the newest before it: parents are older";
+  EXPECT_TRUE(map_.keyframe(b).starts_piece);
+  EXPECT_THROW(map_.EraseKeyframe(b), std::logic_error) << "the pieces hang together by it";
+  EXPECT_FALSE(map_.keyframe(b2).is_anchor());
+}
+
+TEST_F(MapPiecesTest, ADroppedPieceLeavesTheOthersAlone) {
+  const KeyframeId a = StartPiece();
+  const KeyframeId a2 = Follow(a);
+  const KeyframeId b = StartPiece();
+  const KeyframeId b2 = Follow(b);
+  map_.SetWords(b2, std::make_shared<const BagOfWords>());
+  const KeyframeId b3 = Follow(b2);
+  map_.EraseKeyframe(b3);
+  const std::uint64_t epoch = map_.epoch();
+  map_.ErasePiece(b);
+  EXPECT_NE(map_.epoch(), epoch);
+  EXPECT_THAT(map_.KeyframeIds(), ElementsAre(a, a2));
+  EXPECT_EQ(map_.num_keyframes(), 2u);
+  EXPECT_EQ(map_.num_landmarks(), 3u);
+  for (const KeyframeId id : {b, b2, b3}) {
+    EXPECT_FALSE(map_.PieceOf(id));
+    EXPECT_FALSE(map_.ResolvePose(id));
+  }
+}
+
+TEST_F(MapPiecesTest, TheEndsOfALoopCannotBeErased) {
+  const KeyframeId a = StartPiece();
+  const KeyframeId b = Follow(a);
+  const KeyframeId c = Follow(b);
+  map_.TieByLoop(c, b);
+  map_.TieByLoop(b, c);
+  EXPECT_THAT(map_.keyframe(b).loop_partners, ElementsAre(c));
+  EXPECT_THAT(map_.keyframe(c).loop_partners, ElementsAre(b));
+  EXPECT_THROW(map_.EraseKeyframe(c), std::logic_error);
+  const KeyframeId apart = StartPiece();
+  EXPECT_THROW(map_.TieByLoop(a, apart), std::logic_error);
+  EXPECT_THROW(map_.JoinPieces(apart, a), std::logic_error) << "the older one stays";
+  EXPECT_THROW(map_.ErasePiece(b), std::logic_error) << "not the first of a piece";
+}
+
 }  // namespace
 }  // namespace semslam

@@ -89,6 +89,7 @@ TEST_F(DetectorThreadTest, LooksAtTheNewestFirstAndFinishWorksOffTheRest) {
   EXPECT_THAT(LookedAt(), ElementsAre(1, 4, 3, 2));
   EXPECT_EQ(thread_->statistics().num_done, 4u);
   EXPECT_EQ(thread_->statistics().num_submitted, 4u);
+  EXPECT_EQ(thread_->statistics().longest_queue, 3u);
   EXPECT_FALSE(Submit(5)) << "it has finished";
 }
 

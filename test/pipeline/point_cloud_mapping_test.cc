@@ -28,12 +28,12 @@ class PointCloudMappingTest : public ::testing::TestWithParam<Threading> {
     options.segmentation = settings.segmentation;
     return options;
   }
-  PointCloudMapping::PoseLookup LookUp() {
+  PointCloudMapping::PlaceLookup LookUp() {
     return [this](const std::vector<KeyframeId>& ids) {
       return poses_.Read([&](const std::map<KeyframeId, Rigid3>& poses) {
-        std::map<KeyframeId, Rigid3> found;
+        PointCloudMapping::Places found;
         for (const KeyframeId id : ids) {
-          if (const auto it = poses.find(id); it != poses.end()) found.insert(*it);
+          if (const auto it = poses.find(id); it != poses.end()) found.T_world_camera.insert(*it);
         }
         return found;
       });
@@ -167,7 +167,7 @@ class FailingLookup : public ::testing::Test {
     options.cloud = settings.cloud;
     options.voxels = settings.voxels;
     return {threading, options, PinholeCamera(settings.camera), ClassTable(),
-            [](const std::vector<KeyframeId>&) -> std::map<KeyframeId, Rigid3> {
+            [](const std::vector<KeyframeId>&) -> PointCloudMapping::Places {
               throw std::runtime_error("no poses today");
             }};
   }

@@ -107,11 +107,66 @@ TEST_F(SystemLoop, GivesTheSameBitsTwiceWhenInline) {
   }
 }
 
+// The camera is covered while it turns on, and sees a new place then.
+class CoveredOnTheWay : public SystemLoop {
+ protected:
+  static constexpr int kCoverFrom = 25;
+  static constexpr int kCoverTo = 42;
+  static constexpr int kFramesToStart = 5;
+
+  static int TrackCovered(System& system, int last) {
+    int num_tracked = 0;
+    for (int i = 0; i < last; ++i) {
+      RgbdImage image = *Camera().Image(i);
+      if (i >= kCoverFrom && i < kCoverTo) {
+        image.color = cv::Mat(image.color.size(), image.color.type(), cv::Scalar::all(0));
+        image.depth = cv::Mat(image.depth.size(), image.depth.type(), cv::Scalar::all(0));
+      }
+      const auto result = system.TrackRGBD(std::make_shared<const RgbdImage>(std::move(image)));
+      if (result.state == TrackingState::kTracking) ++num_tracked;
+      while (!system.status().mapping_is_idle) std::this_thread::yield();
+    }
+    return num_tracked;
+  }
+};
+
+TEST_F(CoveredOnTheWay, TheTwoPiecesOfTheMapAreJoinedWhenTheTurnIsComplete) {
+  for (const Threading threading : {Threading::kInline, Threading::kWorkers}) {
+    lines_.clear();
+    const auto system = MakeSystem(threading);
+    const int num_tracked = TrackCovered(*system, kNumFrames);
+    EXPECT_GE(num_tracked, kNumFrames - (kCoverTo - kCoverFrom) - kFramesToStart);
+    system->Shutdown();
+    EXPECT_EQ(system->status().num_pieces, 1u);
+    EXPECT_EQ(system->status().num_joins, 1u);
+    EXPECT_EQ(system->CameraTrajectory().size(), static_cast<std::size_t>(num_tracked));
+    ASSERT_GE(lines_.size(), 2u);
+    EXPECT_THAT(lines_[0], ::testing::HasSubstr("another piece of the map begins"));
+    EXPECT_THAT(lines_[1], ::testing::HasSubstr("joined"));
+  }
+}
+
+TEST_F(CoveredOnTheWay, APieceThatWasNotJoinedIsLeftOutOfTheResults) {
+  const auto system = MakeSystem(Threading::kInline);
+  TrackCovered(*system, kCoverTo + 12);
+  const PointCloudMapping::Result result = system->Shutdown();
+  EXPECT_EQ(system->status().num_pieces, 2u);
+  EXPECT_EQ(system->status().num_joins, 0u);
+  const std::vector<System::TrackedPose> poses = system->CameraTrajectory();
+  EXPECT_EQ(poses.size(), static_cast<std::size_t>(kCoverFrom)) << "the larger piece";
+  for (const System::TrackedPose& pose : system->KeyframeTrajectory())
+    EXPECT_LT(pose.time, Camera().Image(kCoverFrom)->time);
+  // What was seen before the camera was covered, and nothing beside it.
+  const auto alone = MakeSystem(Threading::kInline);
+  TrackCovered(*alone, kCoverFrom);
+  EXPECT_EQ(result.cloud.positions.size(), alone->Shutdown().cloud.positions.size());
+}
+
 TEST_F(SystemLoop, MayBeLeftAtAnyMoment) {
   for (const int num_frames : {62, 66, 70, 74}) {
     const auto system = MakeSystem(Threading::kWorkers);
     Track(*system, 0, num_frames);
-    if (num_frames % 4 == 0) system->Shutdown(System::PendingLabels::kDrop);
+    if (num_frames % 4 == 0) system->Shutdown(System::PendingLabels::kDropAndBreakOff);
   }
 }
 

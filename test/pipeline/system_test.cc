@@ -3,11 +3,14 @@
 
 #include "semslam/pipeline/system.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "semslam/base/pause.h"
 
 #include "pipeline/same_poses.h"
 #include "pipeline/wall_camera.h"
@@ -79,6 +82,90 @@ class RenderedDesk : public ::testing::Test {
     return run;
   }
 };
+
+TEST_F(RenderedDesk, CanBeWatchedWhileItRuns) {
+  System system(MakeSettings(), Words(),
+                {.threading = Threading::kInline, .detector = nullptr, .log = {}});
+  Tracking::Result last;
+  for (const RgbdImagePtr& image : Clip().images()) last = system.TrackRGBD(image);
+  ASSERT_NE(last.frame, nullptr);
+  EXPECT_EQ(last.shows_landmark.size(), last.frame->keypoints.size());
+  EXPECT_GE(std::count(last.shows_landmark.begin(), last.shows_landmark.end(), true),
+            last.num_inliers / 2);
+  const System::Graph graph = system.graph(1);
+  EXPECT_EQ(graph.keyframes.size(), system.status().num_keyframes);
+  EXPECT_EQ(graph.tree.size(), graph.keyframes.size() - 1);  // All but the first have a parent.
+  EXPECT_GE(graph.covisible.size(), graph.tree.size());
+  EXPECT_GE(system.clouds().size(), graph.keyframes.size());
+  std::vector<KeyframeId> ids;
+  for (const auto& cloud : system.clouds()) ids.push_back(cloud->id());
+  EXPECT_EQ(system.KeyframePoses(ids).size(), ids.size());
+}
+
+TEST_F(RenderedDesk, APreviewIsTheMapAsItIs) {
+  System system(MakeSettings(), Words(),
+                {.threading = Threading::kWorkers, .detector = Clip().MakeDetector(), .log = {}});
+  EXPECT_EQ(system.preview(), nullptr);
+  for (const RgbdImagePtr& image : Clip().images()) system.TrackRGBD(image);
+  while (!system.status().mapping_is_idle) Pause(0.01);
+  system.RequestPreview();
+  const PointCloudMapping::Result map = system.Shutdown();
+  const auto preview = system.preview();
+  ASSERT_NE(preview, nullptr);
+  EXPECT_EQ(preview->semantics.class_of_point.size(), preview->cloud.size());
+  // It may have been made before the last keyframes came.
+  EXPECT_GT(preview->cloud.size(), 1000u);
+  EXPECT_LT(static_cast<double>(preview->cloud.size()),
+            1.1 * static_cast<double>(map.cloud.size()));
+}
+
+TEST_F(RenderedDesk, PreviewsDoNotChangeTheResult) {
+  const Outcome expected = RunAll(Threading::kInline);
+  System system(MakeSettings(), Words(),
+                {.threading = Threading::kInline, .detector = Clip().MakeDetector(), .log = {}});
+  for (const RgbdImagePtr& image : Clip().images()) {
+    system.TrackRGBD(image);
+    system.RequestPreview();
+  }
+  EXPECT_EQ(system.Shutdown().cloud.positions, expected.map.cloud.positions);
+  EXPECT_EQ(system.preview(), nullptr);  // All in one thread: there is no time for them.
+}
+
+TEST_F(RenderedDesk, ResetForgetsMapAndTrajectory) {
+  System system(MakeSettings(), Words(),
+                {.threading = Threading::kInline, .detector = nullptr, .log = {}});
+  const auto& images = Clip().images();
+  for (std::size_t i = 0; i < 8; ++i) system.TrackRGBD(images[i]);
+  system.Reset();
+  EXPECT_EQ(system.status().num_keyframes, 0u);
+  EXPECT_TRUE(system.CameraTrajectory().empty());
+  EXPECT_TRUE(system.clouds().empty());
+  const Tracking::Result first = system.TrackRGBD(images[8]);
+  EXPECT_EQ(first.state, TrackingState::kTracking);
+  EXPECT_TRUE(first.new_keyframe);
+  for (std::size_t i = 9; i < 16; ++i)
+    EXPECT_EQ(system.TrackRGBD(images[i]).state, TrackingState::kTracking);
+  EXPECT_GT(system.Shutdown().cloud.size(), 1000u);
+  EXPECT_EQ(system.CameraTrajectory().size(), 8u);
+}
+
+TEST_F(RenderedDesk, LocalisationOnlyLeavesTheMapAsItIsUntilItIsSwitchedOff) {
+  System system(MakeSettings(), Words(),
+                {.threading = Threading::kInline, .detector = nullptr, .log = {}});
+  const auto& images = Clip().images();
+  for (std::size_t i = 0; i < 4; ++i) system.TrackRGBD(images[i]);
+  const System::Status before = system.status();
+  system.SetLocalizationOnly(true);
+  for (std::size_t i = 4; i < 8; ++i) {
+    const Tracking::Result result = system.TrackRGBD(images[i]);
+    EXPECT_EQ(result.state, TrackingState::kTracking);
+    EXPECT_FALSE(result.new_keyframe);
+  }
+  EXPECT_EQ(system.status().num_landmarks, before.num_landmarks);
+  system.SetLocalizationOnly(false);
+  for (std::size_t i = 8; i < 16; ++i) system.TrackRGBD(images[i]);
+  EXPECT_GT(system.status().num_keyframes, before.num_keyframes);
+}
 
 TEST_F(RenderedDesk, GivesTheSameBitsTwiceWhenInline) {
   const Outcome first = RunAll(Threading::kInline);

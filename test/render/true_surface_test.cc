@@ -63,7 +63,7 @@ TEST(TrueSurface, AWallIsFlatAndLooksIntoTheRoom) {
   for (std::size_t i = 0; i < surface.positions.size(); ++i) {
     if (clip.instances()[surface.instances[i] - 1].class_name != "wall") continue;
     ++num_samples;
-    EXPECT_NEAR(surface.positions[i].y(), 0.0, 1e-5);
+    EXPECT_NEAR(surface.positions[i].y(), 0, 1e-5);
     EXPECT_LT((surface.normals[i] + Eigen::Vector3f::UnitY()).norm(), 1e-5);
   }
   EXPECT_GT(num_samples, 1000U);

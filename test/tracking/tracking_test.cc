@@ -152,6 +152,50 @@ TEST_F(TrackingTest, AnUnexpectedViewAfterTheFirstFrameStartsANewMapAtOnce) {
   EXPECT_EQ(NumKeyframes(), 1u);
 }
 
+TEST_F(TrackingTest, LostInANewPlaceItBeginsAnotherPieceOfTheMap) {
+  KeepEveryMap();
+  for (int i = 0; i < 40; ++i) ASSERT_EQ(Track(i).state, TrackingState::kTracking);
+  const std::size_t num_keyframes = NumKeyframes();
+  const SyntheticWorld elsewhere({.seed = 99});
+  int number = 40;
+  for (int i = 1; i <= 5; ++i) {
+    const Tracking::Result result = Track(elsewhere.LookAlongPath(number++).frame);
+    EXPECT_FALSE(result.map_was_reset);
+    EXPECT_EQ(result.piece_was_started, i == 5) << i;
+    EXPECT_EQ(result.state, i == 5 ? TrackingState::kTracking : TrackingState::kLost);
+    EXPECT_EQ(result.new_keyframe.has_value(), i == 5);
+  }
+  EXPECT_EQ(NumKeyframes(), num_keyframes + 1);
+  for (; number < 60; ++number) {
+    EXPECT_EQ(Track(elsewhere.LookAlongPath(number).frame).state, TrackingState::kTracking);
+  }
+  map_.Read([](const Map& map) { EXPECT_EQ(map.pieces().size(), 2u); });
+  // Back in the first place it is found there.
+  const Rigid3 place = SyntheticWorld::PathAt(1.0);
+  const Tracking::Result back = Track(World().Look(number, place).frame);
+  EXPECT_TRUE(back.relocalized);
+  EXPECT_THAT(back.T_world_camera, Rigid3Near(place, 2e-3, 5e-3));
+}
+
+TEST_F(TrackingTest, AShortPieceIsDroppedAndTheLargeOneIsKept) {
+  tracking_ = MakeTracking(map_, 3);
+  for (int i = 0; i < 60; ++i) ASSERT_EQ(Track(i).state, TrackingState::kTracking);
+  const std::size_t num_keyframes = NumKeyframes();
+  ASSERT_GT(num_keyframes, 3u);
+  const SyntheticWorld elsewhere({.seed = 99});
+  int number = 60;
+  while (number < 65) Track(elsewhere.LookAlongPath(number++).frame);
+  map_.Read([](const Map& map) { ASSERT_EQ(map.pieces().size(), 2u); });
+  for (int i = 0; i < 3; ++i) {
+    const Tracking::Result blank = Track(SyntheticWorld::BlankFrame(number++));
+    EXPECT_EQ(blank.state, TrackingState::kLost);
+    EXPECT_FALSE(blank.map_was_reset);
+  }
+  EXPECT_EQ(NumKeyframes(), num_keyframes);
+  const Tracking::Result back = Track(World().Look(number, SyntheticWorld::PathAt(1.0)).frame);
+  EXPECT_EQ(back.state, TrackingState::kTracking);
+}
+
 TEST_F(TrackingTest, FindsItselfAgainWhenTheViewComesBack) {
   KeepEveryMap();
   for (int i = 0; i < 40; ++i) ASSERT_EQ(Track(i).state, TrackingState::kTracking);
@@ -174,10 +218,10 @@ TEST_F(TrackingTest, IsNotFooledByAnotherPlaceWhileLost) {
   KeepEveryMap();
   for (int i = 0; i < 20; ++i) Track(i);
   const SyntheticWorld elsewhere({.seed = 99});
-  for (int i = 20; i < 25; ++i) {
+  for (int i = 20; i < 24; ++i) {
     EXPECT_EQ(Track(elsewhere.LookAlongPath(i).frame).state, TrackingState::kLost);
   }
-  EXPECT_EQ(Track(25).state, TrackingState::kTracking);
+  EXPECT_EQ(Track(24).state, TrackingState::kTracking);
 }
 
 TEST_F(TrackingTest, FindsItselfAgainThoughItsReferenceKeyframeWasErasedMeanwhile) {

@@ -20,14 +20,18 @@ namespace semslam {
 
 // Which network looks for which objects. The program's command line can say the same.
 struct DetectorSettings {
-  std::filesystem::path config;  // Darknet's cfg; empty: no detector. Relative paths start at the
-                                 // settings file's folder.
-  std::filesystem::path weights;
+  // Darknet's cfg or an ONNX file; empty: no detector. Relative paths start at the settings file's
+  // folder.
+  std::filesystem::path config;
+  std::filesystem::path weights;     // Darknet's.
   std::filesystem::path names;       // One class name a line.
   std::vector<std::string> classes;  // Of interest; empty: all.
   double score_threshold = 0.25;
   double nms_threshold = 0.45;  // Overlap above which the weaker detection of a class is dropped.
-  int input_size = 0;           // Pixels; 0: as the cfg says.
+  int input_size = 0;           // Pixels; 0: as the cfg says, 640 for ONNX.
+  bool letterbox = true;        // Images keep their proportions; else they are stretched.
+  std::string backend = "opencv";  // What computes: see semantics/network_options.h.
+  std::string target = "cpu";
 };
 
 // Whether and how drift is corrected where the camera comes back.

@@ -74,6 +74,7 @@ class VoxelMap {
   // Since the last time.
   Changes TakeChanges();
 
+  bool Contains(KeyframeId id) const { return keyframes_.contains(id); }
   std::size_t num_keyframes() const { return keyframes_.size(); }
   std::size_t num_voxels() const;
   // Points of the keyframes in the map that found no voxel because of max_voxels.

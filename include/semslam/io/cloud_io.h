@@ -32,6 +32,19 @@ struct CloudColumns {
   std::vector<Rgb> colors;
   std::vector<Eigen::Vector3f> normals;
   std::vector<std::uint32_t> labels;
+  std::vector<std::uint32_t> segments;
+  std::vector<std::uint32_t> objects;
+  std::vector<float> confidences;
+
+  CloudView View() const {
+    return {.positions = positions,
+            .colors = colors,
+            .normals = normals,
+            .labels = labels,
+            .segments = segments,
+            .objects = objects,
+            .confidences = confidences};
+  }
 };
 
 // Writes a binary-compressed PCD file with the fields x y z, rgba (alpha 255), normal_x normal_y
@@ -49,9 +62,9 @@ void WritePly(const std::filesystem::path& path, const CloudView& cloud);
 // out. Throws InputError that says what is wrong with the file.
 CloudColumns ReadPcd(const std::filesystem::path& path);
 
-// Reads the vertex properties x y z, nx ny nz, red green blue and label of a PLY file (ascii or
-// binary) whose first element is vertex; the rest is passed over, and points without a finite
-// position left out. Throws InputError that says what is wrong with the file.
+// Reads the properties of WritePly from a PLY file (ascii or binary, of either byte order) whose
+// vertices come first, of whatever number types; others are passed over, and vertices without a
+// finite position left out. Throws InputError that says what is wrong with the file.
 CloudColumns ReadPly(const std::filesystem::path& path);
 
 }  // namespace semslam

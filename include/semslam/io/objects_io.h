@@ -36,11 +36,16 @@ struct ObjectRecord {
   std::uint64_t num_points = 0;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres.
   OrientedBox box;                                     // World.
+  // What it stands on: a segment as in the files' segment column, and the object that is part of.
+  // 0: not known, none.
+  std::uint32_t supporting_segment = 0;
+  std::uint32_t supporting_object = 0;
 };
 
 // Writes objects.json: units, frame, class table, and the objects in the given order, each with id,
-// class (label and name), confidence, num_views, num_points, centroid and oriented box (centre,
-// rotation as quaternion x y z w, size along the box's axes). Throws InputError.
+// class (label and name), confidence, num_views, num_points, centroid, oriented box (centre,
+// rotation as quaternion x y z w, size along the box's axes), and what it stands on.
+// docs/objects.schema.json describes it. Throws InputError.
 void WriteObjects(const std::filesystem::path& path,
                   const std::vector<ClassRecord>& classes,
                   const std::vector<ObjectRecord>& objects);

@@ -33,7 +33,8 @@ class LoopClosing {
     int min_shared = 15;     // Landmarks in common to be one group.
     // The essential graph: the spanning tree, the loops, and pairs that share so many landmarks.
     int min_shared_essential = 100;
-    int min_hits_for_edge = 30;  // Loop landmarks a keyframe must show to get a loop edge itself.
+    int min_hits_for_edge = 30;    // Loop landmarks a keyframe must show to get a loop edge itself.
+    int min_matches_to_join = 50;  // Landmarks that must agree to join two pieces of the map.
     FrameLocator::Options locator{.min_word_matches = 20,
                                   .min_pose_inliers = 20,
                                   .min_inliers = 40,
@@ -43,14 +44,15 @@ class LoopClosing {
     void Validate() const;  // Throws std::logic_error.
   };
 
-  // A loop that was closed.
+  // A loop that was closed, or two pieces of the map that were joined.
   struct Loop {
-    KeyframeId keyframe;  // That recognised the place,
-    KeyframeId place;     // and an old keyframe there.
-    int num_matches = 0;  // Of its landmarks that agree with the pose.
-    int num_fused = 0;    // Landmarks that were merged or seen again around it.
-    double distance = 0;  // Metres that the keyframe was off,
-    double angle = 0;     // and radians.
+    KeyframeId keyframe;        // That recognised the place,
+    KeyframeId place;           // and an old keyframe there.
+    int num_matches = 0;        // Of its landmarks that agree with the pose.
+    int num_fused = 0;          // Landmarks that were merged or seen again around it.
+    double distance = 0;        // Metres that the keyframe was off,
+    double angle = 0;           // and radians.
+    bool joins_pieces = false;  // Then there was no common frame in which to be off.
     double seconds = 0;
   };
 
@@ -65,13 +67,17 @@ class LoopClosing {
   std::optional<Loop> Process(KeyframeId keyframe);
 
  private:
+  struct Candidate;
+  std::optional<Loop> Close(const KeyframeCopy& keyframe,
+                            std::uint64_t epoch,
+                            const Candidate& candidate);
+
   const Options options_;
   const PinholeCamera camera_;
   const double baseline_times_fx_;
   SharedMap& map_;
   const FrameLocator locator_;
   std::unique_ptr<LoopDetector> detector_;
-  std::vector<std::pair<KeyframeId, KeyframeId>> loop_edges_;
 };
 
 }  // namespace semslam

@@ -27,8 +27,15 @@ struct Keyframe {
   std::shared_ptr<const BagOfWords> words;  // Null until local mapping has looked the words up.
   Rigid3 T_world_camera;
   std::vector<std::optional<LandmarkId>> landmarks;  // One a feature of `frame`.
-  std::optional<KeyframeId> parent;          // In the spanning tree; none for the first keyframe.
+  std::optional<KeyframeId> parent;  // In the spanning tree, older; none for the first of a piece.
   std::vector<CovisibleKeyframe> covisible;  // Sorted by id.
+  KeyframeId piece;  // Of the map, see Map: the id of the first keyframe of it.
+  // Nothing that was seen ties it to its parent: it was the first of a piece that was joined since.
+  bool starts_piece = false;
+  std::vector<KeyframeId> loop_partners;  // At the other ends of loops that were closed here.
+
+  // The map hangs together by it: it must stay.
+  bool is_anchor() const { return !parent || starts_piece || !loop_partners.empty(); }
 };
 
 // A keyframe copied out of the map.

@@ -33,6 +33,11 @@ struct MapCorrection {
 // observation and the covisibility weights in step. Not synchronised itself: threads share it as
 // SharedMap below.
 //
+// It may be in several pieces, of which nobody knows yet how they lie to each other: whoever was
+// lost in a new place begins another one (compare Elvira, Tardos, Montiel, "ORBSLAM-Atlas", 2019).
+// Within a piece all poses are in one frame, each piece has its own spanning tree, and a landmark
+// is seen from one piece only, until JoinPieces.
+//
 // Look-ups by an id that was erased give null (Find...) or throw std::logic_error (everything
 // else).
 class Map {
@@ -45,8 +50,10 @@ class Map {
   LandmarkId AddLandmark(const Eigen::Vector3d& p_world, const Observation& first);
   // The feature must be free, and the landmark not seen by the keyframe yet.
   void AddObservation(LandmarkId landmark, const Observation& observation);
-  // Hangs the keyframe below the older keyframe that shares most landmarks with it.
-  void ChooseParent(KeyframeId keyframe);
+  // Hangs the keyframe below the older keyframe that shares most landmarks with it; if none shares
+  // any, below `otherwise` (older too), or below the keyframe before it. Until then a new keyframe
+  // is a piece of its own.
+  void ChooseParent(KeyframeId keyframe, std::optional<KeyframeId> otherwise = std::nullopt);
 
   // --- Changing
   void SetPose(KeyframeId keyframe, const Rigid3& T_world_camera);
@@ -57,6 +64,11 @@ class Map {
   void CountSightings(LandmarkId landmark, int num_visible, int num_found);
   // Moves everything at once and begins a new epoch. What is gone meanwhile is skipped.
   void Correct(const MapCorrection& correction);
+  // From now on the poses of both pieces are in one frame: first Correct those of `joined`, the
+  // younger one.
+  void JoinPieces(KeyframeId kept, KeyframeId joined);
+  // The two see one place though the spanning tree does not say so.
+  void TieByLoop(KeyframeId a, KeyframeId b);
 
   // --- Shrinking
   // `drop`'s observations go to `keep` where the keyframe does not see `keep` already; `drop` then
@@ -66,10 +78,12 @@ class Map {
   // it is real.
   void RemoveObservation(LandmarkId landmark, KeyframeId keyframe);
   void EraseLandmark(LandmarkId landmark);
-  // Its pose stays known relative to its parent. Landmarks that only it saw are erased. Not the
-  // first keyframe.
+  // Its pose stays known relative to its parent. Landmarks that only it saw are erased. Not an
+  // anchor (Keyframe::is_anchor).
   void EraseKeyframe(KeyframeId keyframe);
-  // Drops everything; ids go on counting.
+  // Drops all keyframes and landmarks of a piece, or everything, and begins a new epoch; ids go on
+  // counting.
+  void ErasePiece(KeyframeId piece);
   void Clear();
 
   // --- Looking
@@ -82,6 +96,15 @@ class Map {
   std::optional<LandmarkId> ResolveLandmark(LandmarkId id) const;
   // Pose of a keyframe, also of an erased one; nothing if the map was cleared since.
   std::optional<Rigid3> ResolvePose(KeyframeId id) const;
+  // The keyframe, or the one it hung below when it was erased; nothing if it was dropped.
+  std::optional<KeyframeId> NearestKeptAncestor(KeyframeId id) const;
+  // The piece of a keyframe, also of an erased one; nothing if it was dropped.
+  std::optional<KeyframeId> PieceOf(KeyframeId id) const;
+  // The pieces and how many keyframes each has.
+  const std::map<KeyframeId, std::size_t>& pieces() const { return pieces_; }
+  // The one with most keyframes, the oldest of equals; its frame is the world. Nothing if the map
+  // is empty.
+  std::optional<KeyframeId> MainPiece() const;
   std::vector<KeyframeId> KeyframeIds() const;  // Ascending.
   std::vector<LandmarkId> LandmarkIds() const;  // Ascending.
   // Those sharing at least `min_shared` landmarks, most first (older first among equals),
@@ -133,12 +156,15 @@ class Map {
   void Unlink(Landmark& landmark, std::size_t index);
   void UpdateDistanceRange(const Landmark& landmark, LandmarkAppearance* appearance) const;
   void ReparentChildren(const Keyframe& erased);
+  void MoveToPiece(Keyframe& keyframe, KeyframeId piece);
+  void CheckTree(const Keyframe& keyframe) const;
   std::vector<Rigid3> MotionOfKeyframes(const MapCorrection& correction) const;
 
   ScaleSpace scale_space_;
   std::vector<KeyframeSlot> keyframes_;  // By id.
   std::vector<LandmarkSlot> landmarks_;  // By id.
   KeyframeIndex keyframe_index_;
+  std::map<KeyframeId, std::size_t> pieces_;
   std::size_t num_keyframes_ = 0;
   std::size_t num_landmarks_ = 0;
   std::uint64_t version_ = 0;

@@ -29,7 +29,7 @@ class MapArchive {
                                const PinholeCamera::Bounds& camera_bounds,
                                const Vocabulary& vocabulary,
                                Map* map);
-  static KeyframeId ReadParent(BinaryReader* reader, const Map& map, bool must_be_kept);
+  static KeyframeId ReadOlder(BinaryReader* reader, const Map& map, bool must_be_kept);
   static void WriteLandmark(const Landmark& landmark, BinaryWriter* writer);
   static void ReadLandmark(BinaryReader* reader, Map* map);
   static void ReadObservations(BinaryReader* reader, Map* map, Landmark* landmark);

@@ -29,10 +29,11 @@ class DetectorThread {
   struct Statistics {
     std::size_t num_submitted = 0;
     std::size_t num_done = 0;
-    std::size_t num_failed =
-        0;  // Images on which the detector threw; the run goes on without their labels.
-    std::string first_error;       // What it said the first time.
-    double mean_milliseconds = 0;  // Per image that was done.
+    // Images on which the detector threw; the run goes on without their labels.
+    std::size_t num_failed = 0;
+    std::string first_error;        // What it said the first time.
+    double mean_milliseconds = 0;   // Per image that was done.
+    std::size_t longest_queue = 0;  // Images that waited at once.
   };
 
   DetectorThread(Threading threading, std::unique_ptr<Detector> detector, Sink sink);

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "semslam/base/binary_stream.h"
@@ -40,15 +42,19 @@ class PointCloudMapping {
     void Validate() const;
   };
 
-  // Poses of keyframes by id; those no longer in the map (it was cleared) are missing. Called from
-  // this class's thread.
-  using PoseLookup = std::function<std::map<KeyframeId, Rigid3>(const std::vector<KeyframeId>&)>;
+  // Where keyframes are. Those no longer in the map (it was cleared) are in neither.
+  struct Places {
+    std::map<KeyframeId, Rigid3> T_world_camera;
+    std::set<KeyframeId> apart;  // In the map, but how they lie to the world is not known yet.
+  };
+  // Called from this class's thread.
+  using PlaceLookup = std::function<Places(const std::vector<KeyframeId>&)>;
 
   struct Result {
     MapCloud cloud;
     Segmentation segmentation;
     SemanticMap semantics;
-    double integration_milliseconds = 0;   // Mean, a keyframe.
+    double integration_milliseconds = 0;  // Mean, a keyframe.
     LiveSegments::Statistics live;
     double segmentation_milliseconds = 0;  // Of the final pass.
     double fusion_milliseconds = 0;        // Of the final pass.
@@ -58,7 +64,7 @@ class PointCloudMapping {
                     const Options& options,
                     const PinholeCamera& camera,
                     ClassTable classes,
-                    PoseLookup pose_lookup);
+                    PlaceLookup look_up);
 
   // False once finished or failed.
   bool InsertKeyframe(KeyframeId keyframe, RgbdImagePtr image);
@@ -79,6 +85,14 @@ class PointCloudMapping {
   // labels it. Rethrows what the thread threw.
   Result Finish();
 
+  // --- For those who watch while it runs, from any thread.
+  // What the keyframes saw, ascending by id, in the frames of the keyframes.
+  std::vector<std::shared_ptr<const KeyframeCloud>> clouds() const;
+  // The map as it is, segmented and labelled, as soon as little else waits; in the background, and
+  // never with Threading::kInline. An object keeps its id from one preview to the next.
+  void RequestPreview();
+  // The newest one; null before the first.
+  std::shared_ptr<const Result> preview() const;
   // The map with its segments, as of some keyframe ago: see LiveSegments. Any thread may call both.
   void RequestLiveMap() { live_segments_.RequestMap(); }
   std::shared_ptr<const LiveMap> live_map() const { return live_segments_.map(); }
@@ -89,33 +103,48 @@ class PointCloudMapping {
   }
 
  private:
-  // One of three things to do; its other fields are empty.
+  // One of these things to do; its other fields are empty.
   struct Job {
-    enum class Kind { kKeyframe, kDetections, kCorrection };
+    enum class Kind { kKeyframe, kDetections, kCorrection, kPreview };
     Kind kind;
     KeyframeId keyframe = {};
     RgbdImagePtr image = nullptr;
     std::vector<Detection> detections = {};
   };
 
+  // What may be looked at while it runs.
+  struct Sight {
+    std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds;
+    std::shared_ptr<const Result> preview;
+    bool preview_is_wanted = false;
+  };
+
   void Process(Job job);
+  void Do(Job job);
+  void ShowPreview();
+  Result Build(const Segmenter::Options& segmentation, const SemanticMap* previous) const;
   void Integrate(KeyframeId keyframe, const RgbdImage& image);
   void FollowPoses(double max_shift);
   std::vector<LabelledKeyframe> LabelledKeyframes() const;
 
   const Options options_;
+  const Threading threading_;
   const std::shared_ptr<const RayTable> rays_;
   ClassTable classes_;
-  const PoseLookup pose_lookup_;
+  const PlaceLookup look_up_;
   // The stage's own, until it has finished.
   VoxelMap voxel_map_;
   LiveSegments live_segments_;
   std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds_;
   std::map<KeyframeId, std::vector<Detection>> detections_;
+  // What made the newest preview.
+  std::uint64_t num_changes_ = 1;
+  std::uint64_t num_changes_shown_ = 0;
   double integration_seconds_ = 0;
   std::size_t num_integrated_ = 0;
 
   Guarded<std::size_t> num_voxels_{0};
+  Guarded<Sight> sight_;
   Stage<Job> stage_;  // Last: its thread ends before what it uses.
 };
 

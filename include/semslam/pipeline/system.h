@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/binary_stream.h"
@@ -63,12 +65,29 @@ class System {
     std::size_t num_voxels = 0;
     std::size_t num_relocalizations = 0;  // Losses after which the place was found again.
     std::size_t num_loops = 0;            // Closed.
+    std::size_t num_joins = 0;            // Pieces of the map that were joined to others.
+    std::size_t num_pieces = 0;           // Of the map, now.
     std::size_t num_full_bundles = 0;  // Bundle adjustments of the whole map that ran to the end.
     bool mapping_is_idle = true;       // Local mapping has nothing queued and nothing in hand.
     std::size_t mapping_queue = 0;
     std::size_t loop_queue = 0;
     std::size_t dense_queue = 0;
     std::size_t detector_queue = 0;
+  };
+
+  // The keyframes and what ties them, as the map knows them now. Edges are pairs of places in
+  // `keyframes`.
+  struct Graph {
+    struct Node {
+      KeyframeId id;
+      TimeNs time = 0;
+      Rigid3 T_world_camera;
+    };
+    using Edge = std::pair<std::size_t, std::size_t>;
+    std::vector<Node> keyframes;  // Ascending by id.
+    std::vector<Edge> tree;       // Each keyframe with its parent.
+    std::vector<Edge> covisible;  // With at least so many common landmarks as were asked for.
+    std::vector<Edge> loops;      // Closed.
   };
 
   struct TrackedPose {
@@ -88,13 +107,19 @@ class System {
   // of the wrong size or type throws std::logic_error. Rethrows what a thread threw.
   Tracking::Result TrackRGBD(const RgbdImagePtr& image);
 
-  // Images that still wait for the detector when the run ends.
-  enum class PendingLabels { kFinish, kDrop };
+  // Between two frames, in the thread of TrackRGBD: forgets map and trajectory, and the next frame
+  // may be the first.
+  void Reset();
+  // The same: only find the camera in the map, which stays as it is; or map again.
+  void SetLocalizationOnly(bool localization_only);
 
-  // Lets every thread finish what is queued (kDrop: but the detector only the image in hand, and
-  // the bundle adjustment after a loop is broken off), and returns the final dense, segmented and
-  // labelled map. Call it once; the trajectories stay available. Without it, the destructor ends
-  // the threads and drops what is queued.
+  // Images that still wait for the detector when the run ends: all are looked at, or only the one
+  // in hand; and in a hurry the bundle adjustment after a loop is broken off too.
+  enum class PendingLabels { kFinish, kDrop, kDropAndBreakOff };
+
+  // Lets every thread finish what is queued, but for what `pending` says, and returns the final
+  // dense, segmented and labelled map. Call it once; the trajectories stay available. Without it,
+  // the destructor ends the threads and drops what is queued.
   PointCloudMapping::Result Shutdown(PendingLabels pending = PendingLabels::kFinish);
 
   // Writes everything that a later run needs to go on, in one file, complete or not at all. After
@@ -108,11 +133,24 @@ class System {
   // The settings with which a map file was made. Throws InputError if there are none in it.
   static Settings ReadMapSettings(const std::filesystem::path& path);
 
-  // Poses of all frames that were tracked, and of all keyframes, as the map knows them now.
+  // Poses of all frames that were tracked, and of all keyframes, as the map knows them now: those
+  // in its main piece, see Map::MainPiece.
   std::vector<TrackedPose> CameraTrajectory() const;
   std::vector<TrackedPose> KeyframeTrajectory() const;
 
   Status status() const;
+  Graph graph(int min_shared = 100) const;
+  // Also of keyframes that were culled; those that are no longer known (the map was cleared) are
+  // missing.
+  std::map<KeyframeId, Rigid3> KeyframePoses(const std::vector<KeyframeId>& ids) const;
+  // The dense map while it grows: see PointCloudMapping.
+  std::vector<std::shared_ptr<const KeyframeCloud>> clouds() const {
+    return point_cloud_mapping_.clouds();
+  }
+  void RequestPreview() { point_cloud_mapping_.RequestPreview(); }
+  std::shared_ptr<const PointCloudMapping::Result> preview() const {
+    return point_cloud_mapping_.preview();
+  }
   DetectorThread::Statistics detector_statistics() const;
   bool has_detector() const { return detector_ != nullptr; }
 
@@ -142,8 +180,9 @@ class System {
   void CloseLoop(KeyframeId keyframe);
   void AdjustAll();
   void RethrowFailures();
+  void TellOfLosses(const Tracking::Result& result);
   void LogNewLoops();
-  std::map<KeyframeId, Rigid3> LookUpPoses(const std::vector<KeyframeId>& ids) const;
+  PointCloudMapping::Places LookUpPlaces(const std::vector<KeyframeId>& ids) const;
   void Log(LogLevel level, const std::string& message) const;
   void Tell(Step step, double seconds) const;
 

@@ -26,7 +26,7 @@ struct IdealImage {
 class Renderer {
  public:
   struct Options {
-    bool smooth_edges = true;       // Four rays more for colour in pixels that an edge crosses.
+    bool smooth_edges = true;       // Two rays more for colour in pixels that an edge crosses.
     bool shadows = true;            // Else every lamp reaches everything.
     double occlusion_reach = 0.25;  // Corners this near (m) darken a surface; 0 turns it off.
   };

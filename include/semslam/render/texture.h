@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
+#include <emmintrin.h>
 #include <opencv2/core/mat.hpp>
 
 namespace semslam {
@@ -22,7 +24,16 @@ class Texture {
   Eigen::Vector3f Sample(const Eigen::Vector2f& uv, float footprint) const;
 
  private:
-  std::vector<cv::Mat> levels_;  // CV_8UC4, each half as large as the one before.
+  // Texels of B, G, R and a byte more. Behind the last column and row the first ones follow again.
+  struct Level {
+    __m128 At(const Eigen::Vector2f& unit) const;
+
+    int num_columns;
+    int num_rows;
+    std::vector<std::uint32_t> texels;
+  };
+
+  std::vector<Level> levels_;  // Each half as large as the one before.
 };
 
 }  // namespace semslam

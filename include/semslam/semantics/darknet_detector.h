@@ -2,28 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "semslam/semantics/detector.h"
+#include "semslam/semantics/network_options.h"
 
 namespace semslam {
 
 // A network of the YOLOv3 kind (Darknet cfg and weights, [yolo] heads; Redmon and Farhadi 2018),
-// run by OpenCV on the CPU. Not thread-safe.
+// run by OpenCV. Not thread-safe.
 class DarknetDetector : public Detector {
  public:
-  struct Options {
-    std::filesystem::path config;   // Darknet's .cfg
-    std::filesystem::path weights;  // and .weights.
-    int input_size = 0;             // Pixels, a multiple of 32; 0: as the cfg says.
-    float score_threshold = 0.25F;  // Detections with a lower best score are left out.
-    float nms_threshold = 0.45F;    // Overlap above which the weaker of one class is dropped.
-    // Class scores below this are cut to 0; the rest form the detection's class distribution.
-    float min_class_score = 0.02F;
-    void Validate() const;  // Throws InputError.
-  };
+  using Options = NetworkOptions;
 
   // Reads the network and runs it once. OpenCV accepts truncated and foreign weights and wrong
   // names in silence, so everything is checked here first: throws InputError if a file cannot be

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "semslam/camera/pinhole_camera.h"
 #include "semslam/map/map.h"
@@ -45,7 +46,11 @@ class Tracking {
     int min_inliers = 30;              // In the local map; fewer: lost.
     int min_inliers_after_loss = 50;   // To be found again, and for the first second afterwards.
     std::size_t max_places_tried = 6;  // In each lost frame; bounds its time.
-    // Lost with no more keyframes than these, for as many frames as were tracked: start over.
+    // Lost in so many frames in a row that show enough to start from: a new piece of the map is
+    // begun, which loop closing joins to the others once the camera sees both.
+    int max_frames_lost = 5;
+    // Lost with no more keyframes than these in the piece, for as many frames as were tracked: it
+    // is dropped.
     std::size_t min_keyframes_to_keep = 5;
     bool localization_only = false;  // In a loaded map, which stays as it is.
     KeyframePolicy::Options keyframes;
@@ -59,13 +64,17 @@ class Tracking {
     Rigid3 T_reference_camera;
     int num_inliers = 0;  // Landmarks that agree with the pose.
     std::optional<KeyframeId>
-        new_keyframe;               // Inserted into the map with this frame; local mapping is due.
-    bool relocalized = false;       // The place was found again with this frame, after a loss.
-    bool map_was_reset = false;     // Everything before this frame is void.
-    bool was_skipped = false;       // Not newer than the frame before: nothing was done with it.
-    double first_pose_seconds = 0;  // Spent on a pose from the last frame or a keyframe,
-    double local_map_seconds = 0;   // on the local map,
-    double keyframe_seconds = 0;    // and on what follows.
+        new_keyframe;                // Inserted into the map with this frame; local mapping is due.
+    bool relocalized = false;        // The place was found again with this frame, after a loss.
+    bool map_was_reset = false;      // Everything before this frame is void.
+    bool piece_was_started = false;  // With this frame, for want of a known place. Its poses are in
+                                     // a frame of their own until it is joined.
+    bool was_skipped = false;        // Not newer than the frame before: nothing was done with it.
+    std::shared_ptr<const Frame> frame;  // What was seen; null if it was skipped.
+    std::vector<bool> shows_landmark;    // One a feature of `frame` while tracking, else empty.
+    double first_pose_seconds = 0;       // Spent on a pose from the last frame or a keyframe,
+    double local_map_seconds = 0;        // on the local map,
+    double keyframe_seconds = 0;         // and on what follows.
   };
 
   Tracking(const Options& options,
@@ -82,6 +91,11 @@ class Tracking {
   // up. Before the first frame; without keyframes in the map nothing changes.
   void StartInLoadedMap();
 
+  // Forgets all: the map is cleared, and the next frame may be the first.
+  void StartOver();
+  // From the next frame on: only find the camera, and leave the map as it is; or map again.
+  void SetLocalizationOnly(bool localization_only) { localization_only_ = localization_only; }
+
   TrackingState state() const { return state_; }
 
  private:
@@ -93,6 +107,9 @@ class Tracking {
   };
 
   Result Initialize(std::shared_ptr<const Frame> frame);
+  bool CanStartFrom(const Frame& frame) const;
+  Result StartPiece(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera);
+  Result WithSight(Result result, std::shared_ptr<const Frame> frame) const;
   Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
   void BringLastFrameUpToDate();
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
@@ -104,6 +121,8 @@ class Tracking {
   int TrackLocalMap(TrackedFrame* current);
   Result Succeed(Located located, const MapperLoad& mapper);
   Result Fail(std::shared_ptr<const Frame> frame);
+  Result DropPiece(std::shared_ptr<const Frame> frame);
+  bool IsWorthKeeping() const;
   KeyframePolicy::Situation Assess(const TrackedFrame& current,
                                    int num_inliers,
                                    KeyframeId reference,
@@ -121,7 +140,8 @@ class Tracking {
   const FrameLocator locator_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
-  bool map_is_loaded_ = false;
+  bool localization_only_ = false;
+  std::optional<KeyframeId> newest_loaded_;  // Of a map that was filled from elsewhere.
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;
   std::uint64_t epoch_ = 0;    // Of the map in which the poses below are.
@@ -131,8 +151,9 @@ class Tracking {
   std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
   int num_frames_since_found_ = 0;     // After a loss; large before the first.
   int num_frames_since_keyframe_ = 0;
-  int num_frames_tracked_ = 0;     // Since the map was started.
+  int num_frames_tracked_ = 0;     // Since the map, or the newest piece of it, was started.
   int num_frames_lost_ = 0;        // In a row.
+  int num_good_frames_lost_ = 0;   // Of them, in a row: those that show enough to start from.
   double first_pose_seconds_ = 0;  // Spent on the frame in hand.
   double local_map_seconds_ = 0;
 

@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "semslam/io/segment_color.h"
+
 #include "io/cloud_columns.h"
-#include "io/segment_color.h"
 
 namespace semslam {
 namespace {

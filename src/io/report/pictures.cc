@@ -132,21 +132,35 @@ std::vector<StripPicture> MakeStrip(const std::vector<ReportKeyframe>& keyframes
   return strip;
 }
 
+std::vector<ObjectView> FindObjectViews(const ObjectRecord& object,
+                                        const std::vector<ReportKeyframe>& keyframes,
+                                        const PinholeCamera& camera,
+                                        std::size_t max_views) {
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    if (keyframes[i].jpeg.empty()) continue;
+    if (const auto candidate = Assess(object, keyframes[i], i, camera))
+      candidates.push_back(*candidate);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+  std::vector<ObjectView> views;
+  for (const Candidate& candidate : candidates) {
+    if (views.size() < max_views) views.push_back(candidate.view);
+  }
+  return views;
+}
+
 std::vector<std::optional<ObjectView>> FindObjectViews(const ReportData& data) {
-  std::vector<std::optional<ObjectView>> views;
   if (data.keyframes.empty())
     return std::vector<std::optional<ObjectView>>(data.map.objects.size());
   const PinholeCamera camera(data.camera);
+  std::vector<std::optional<ObjectView>> best;
   for (const ObjectRecord& object : data.map.objects) {
-    std::optional<Candidate> best;
-    for (std::size_t i = 0; i < data.keyframes.size(); ++i) {
-      if (data.keyframes[i].jpeg.empty()) continue;
-      const auto candidate = Assess(object, data.keyframes[i], i, camera);
-      if (candidate && (!best || candidate->rank > best->rank)) best = candidate;
-    }
-    views.push_back(best ? std::optional(best->view) : std::nullopt);
+    const std::vector<ObjectView> views = FindObjectViews(object, data.keyframes, camera, 1);
+    best.push_back(views.empty() ? std::nullopt : std::optional(views.front()));
   }
-  return views;
+  return best;
 }
 
 std::vector<std::string> MakeObjectPictures(const ReportData& data,

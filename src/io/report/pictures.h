@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "semslam/io/object_views.h"
 #include "semslam/io/report.h"
 
 namespace semslam {
@@ -21,12 +22,6 @@ struct StripPicture {
 // left out.
 std::vector<StripPicture> MakeStrip(const std::vector<ReportKeyframe>& keyframes,
                                     std::size_t max_pictures);
-
-// Where an object is seen best.
-struct ObjectView {
-  std::size_t keyframe = 0;  // Place in ReportData::keyframes.
-  ImageBox box;              // Of the object in the recorded image.
-};
 
 // For each object of the map the keyframe in which it was detected best, or if in none, that in
 // whose picture it lies whole and largest. Nothing if no keyframe looked at it.

@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/point_renderer.h"
 #include "io/report/html.h"
 
 namespace semslam {
@@ -110,22 +109,6 @@ std::string HexColor(Rgb color) {
 }
 
 bool IsGap(TimeNs before, TimeNs after) { return after - before > kNsPerSecond / 2; }
-
-LevelFrame FindLevelFrame(const LabelledMapView& map) {
-  LevelFrame frame;
-  if (map.up) {
-    frame.up = map.up->normalized();
-  } else if (const auto up = CommonUpNormal(map.cloud.normals, frame.up.cast<float>())) {
-    frame.up = up->cast<double>();
-  }
-  const auto flatten = [&](const Eigen::Vector3d& v) { return v - v.dot(frame.up) * frame.up; };
-  frame.forward = flatten(Eigen::Vector3d::UnitZ());
-  // The first camera looked straight up or down.
-  if (frame.forward.norm() < 0.1) frame.forward = flatten(-Eigen::Vector3d::UnitY());
-  frame.forward.normalize();
-  frame.right = frame.forward.cross(frame.up);
-  return frame;
-}
 
 std::string SceneJson(const ReportData& data,
                       const LevelFrame& level,

@@ -6,23 +6,13 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "semslam/io/level_frame.h"
 #include "semslam/io/report.h"
 
 #include "io/report/map_points.h"
 #include "io/report/pictures.h"
 
 namespace semslam {
-
-// Level axes of the world: the ground plane, and forward as the first camera looked. Unit length.
-struct LevelFrame {
-  Eigen::Vector3d right = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d up = -Eigen::Vector3d::UnitY();
-};
-
-LevelFrame FindLevelFrame(const LabelledMapView& map);
 
 // What view.js needs besides the points, as JSON that may stand in a script element.
 std::string SceneJson(const ReportData& data,
