@@ -6,13 +6,12 @@
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "semslam/io/atomic_file.h"
-#include "semslam/io/map_picture.h"
 
 #include "format_line.h"
 #include "printable.h"
+#include "segment_picture.h"
 
 namespace {
 
@@ -99,21 +98,10 @@ Json ToJson(const MethodResult& result) {
 void WritePicture(const std::filesystem::path& path,
                   const LabelledCloud& cloud,
                   const std::vector<std::uint32_t>& numbers) {
-  constexpr double kPointSize = 0.008;  // Metres.
-  semslam::LabelledMapView view;
-  view.cloud = {.positions = cloud.points,
-                .colors = cloud.colors,
-                .normals = cloud.normals,
-                .segments = numbers};
-  view.point_size = kPointSize;
-  semslam::MapPictureOptions options;
-  const cv::Mat picture =
-      semslam::DrawMapPicture(view, semslam::MapPictureView::kPerspective, options);
-  // Of the three panels, the first two.
-  const cv::Mat panels = picture.colRange(0, std::min(picture.cols, 2 * options.panel_width + 8));
-  std::vector<unsigned char> png;
-  cv::imencode(".png", panels, png);
-  semslam::WriteFileAtomically(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  WriteSegmentPicture(path, {.positions = cloud.points,
+                             .colors = cloud.colors,
+                             .normals = cloud.normals,
+                             .segments = numbers});
 }
 
 }  // namespace

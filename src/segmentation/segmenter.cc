@@ -51,31 +51,41 @@ std::vector<SegmentId> SegmentOfPoints(const VoxelGrid& grid,
 
 Segmenter::Segmenter(const Options& options) : options_(options) { options_.Validate(); }
 
-Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
+Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver& on_step) const {
   const int num_threads = options_.num_threads;
+  const auto begin = [&](std::string_view step) {
+    if (on_step) on_step(step);
+  };
   Segmentation result;
   Stopwatch watch;
 
+  begin("voxels");
   const VoxelGrid grid = BuildConnectedVoxelGrid(
       cloud, options_.supervoxels.voxel_size, options_.supervoxels.max_voxel_growth, num_threads);
   result.times.voxels = Lap(watch);
+  begin("normals");
   const std::vector<Eigen::Vector3f> normals = ComputeVoxelNormals(grid, num_threads);
   result.times.normals = Lap(watch);
+  begin("supervoxels");
   Supervoxels supervoxels = GrowSupervoxels(grid, normals, options_.supervoxels, num_threads);
   result.times.supervoxels = Lap(watch);
   PatchGraph graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.patches = Lap(watch);
 
+  begin("planes");
   std::vector<Plane> planes = ProposePlanes(graph.patches, options_.planes, num_threads);
   result.num_hypotheses = planes.size();
   result.times.planes = Lap(watch);
+  begin("plane selection");
   const SelectionEnergy energy = MakeSelectionEnergy(graph.patches, planes, options_.planes);
   planes = KeepSelected(planes, SelectPlanes(energy, options_.selection));
   result.times.selection = Lap(watch);
+  begin("plane assignment");
   std::vector<std::uint32_t> plane_labels =
       AssignPlanes(graph, planes, options_.planes, options_.assignment);
   plane_labels = GrowSurfaces(graph, planes, std::move(plane_labels), options_.components);
   result.times.assignment = Lap(watch);
+  begin("relief");
   CutPatches cut =
       CutAtRelief(grid, supervoxels, graph, planes, plane_labels,
                   options_.components.min_structural_area, options_.relief, num_threads);
@@ -84,6 +94,7 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud) const {
   graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
   result.times.relief = Lap(watch);
 
+  begin("segments");
   const Components components = FindComponents(graph, plane_labels, options_.components);
   const std::vector<SegmentId> segment_of_voxel = SegmentOfVoxels(supervoxels, components);
   result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel);

@@ -7,6 +7,9 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -223,6 +226,17 @@ TEST(Segmenter, ThingsAKilometreApartStayApart) {
   }
   const Segmentation result = SegmentCloud(scene.View());
   EXPECT_GE(Agreement(result.segment_of_point, scene.truth), 0.99);
+}
+
+TEST(Segmenter, TellsItsStepsAndEndsWhereItIsTold) {
+  const test::SyntheticScene desk = test::MakeDesk();
+  const Segmenter segmenter{Segmenter::Options()};
+  std::vector<std::string> steps;
+  segmenter.Segment(desk.View(), [&](std::string_view step) { steps.emplace_back(step); });
+  ASSERT_GE(steps.size(), 3U);
+  EXPECT_EQ(steps.front(), "voxels");
+  const auto end_at_once = [](std::string_view) { throw std::runtime_error("enough"); };
+  EXPECT_THROW(segmenter.Segment(desk.View(), end_at_once), std::runtime_error);
 }
 
 TEST(Segmenter, NonsenseOptionsAreRefusedByName) {

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -85,9 +87,12 @@ class Segmenter {
     void Validate() const;
   };
 
+  // Told before each step what it is; what it throws ends the segmentation and comes out of it.
+  using StepObserver = std::function<void(std::string_view step)>;
+
   explicit Segmenter(const Options& options);
 
-  Segmentation Segment(const PointCloudView& cloud) const;
+  Segmentation Segment(const PointCloudView& cloud, const StepObserver& on_step = {}) const;
 
  private:
   Options options_;
