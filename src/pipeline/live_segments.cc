@@ -78,19 +78,19 @@ void LiveSegments::RequestMap() {
   published_.Write([](Published& published) { published.is_requested = true; });
 }
 
-std::shared_ptr<const LiveMap> LiveSegments::map() const {
+std::shared_ptr<const SegmentedCloud> LiveSegments::map() const {
   return published_.Read([](const Published& published) { return published.map; });
 }
 
 void LiveSegments::PublishIfAsked() {
   if (!published_.Read([](const Published& published) { return published.is_requested; })) return;
-  auto map = std::make_shared<const LiveMap>(MakeMap());
+  auto map = std::make_shared<const SegmentedCloud>(MakeMap());
   published_.Write(
       [&](Published& published) { published = {.is_requested = false, .map = std::move(map)}; });
 }
 
-LiveMap LiveSegments::MakeMap() const {
-  LiveMap map;
+SegmentedCloud LiveSegments::MakeMap() const {
+  SegmentedCloud map;
   map.cloud = voxel_map_->Extract();
   map.segment_of_point.reserve(map.cloud.size());
   for (const Eigen::Vector3f& position : map.cloud.positions) {

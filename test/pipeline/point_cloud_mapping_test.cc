@@ -127,7 +127,7 @@ TEST_P(PointCloudMappingTest, ShowsTheSegmentsWhileTheMapGrows) {
   ASSERT_TRUE(mapping.InsertKeyframe(KeyframeId{0}, wall_.Image(0)));
   const PointCloudMapping::Result result = mapping.Finish();
   EXPECT_EQ(result.live.num_keyframes, 1U);
-  const std::shared_ptr<const LiveMap> live = mapping.live_map();
+  const std::shared_ptr<const SegmentedCloud> live = mapping.live_map();
   ASSERT_NE(live, nullptr);
   EXPECT_EQ(live->cloud.positions, result.cloud.positions);
   // The wall is one segment, then as in the end.

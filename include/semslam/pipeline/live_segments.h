@@ -14,7 +14,7 @@
 namespace semslam {
 
 // The map while it grows, with its segments; immutable.
-struct LiveMap {
+struct SegmentedCloud {
   MapCloud cloud;
   std::vector<SegmentId> segment_of_point;  // 0: none yet. Ids stay from one map to the next.
 };
@@ -51,16 +51,16 @@ class LiveSegments {
   // Any thread: asks for a map, which is made after the next keyframe or correction.
   void RequestMap();
   // The newest one that was asked for; null before the first.
-  std::shared_ptr<const LiveMap> map() const;
+  std::shared_ptr<const SegmentedCloud> map() const;
 
   Statistics statistics() const;
   // The segments as they are now.
-  LiveMap MakeMap() const;
+  SegmentedCloud MakeMap() const;
 
  private:
   struct Published {
     bool is_requested = false;
-    std::shared_ptr<const LiveMap> map;
+    std::shared_ptr<const SegmentedCloud> map;
   };
 
   void TakeChanges();

@@ -95,7 +95,7 @@ class PointCloudMapping {
   std::shared_ptr<const Result> preview() const;
   // The map with its segments, as of some keyframe ago: see LiveSegments. Any thread may call both.
   void RequestLiveMap() { live_segments_.RequestMap(); }
-  std::shared_ptr<const LiveMap> live_map() const { return live_segments_.map(); }
+  std::shared_ptr<const SegmentedCloud> live_map() const { return live_segments_.map(); }
 
   std::size_t queue_size() const { return stage_.queue_size(); }
   std::size_t num_voxels() const {
