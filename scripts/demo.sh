@@ -75,6 +75,8 @@ if [[ -z "$sequence" ]]; then
   echo "Rendering $frames frames of a desk to $sequence"
   "$bin/render_clip" desk "$sequence" --frames "$frames" --seed 1
   settings=$(find_settings)
+elif [[ "${network[1]}" == "$detector.cfg" ]]; then
+  echo "No --network: the detector is the one that ships, which knows rendered desks only"
 fi
 associations=-
 [[ ! -f "$sequence/associations.txt" ]] || associations="$sequence/associations.txt"
