@@ -18,7 +18,7 @@ inline std::filesystem::path TakeNetwork(const std::vector<std::string>& network
   const std::size_t num_files = options.config.extension() == ".onnx" ? 2 : 3;
   if (network.size() != num_files) {
     throw semslam::InputError("--network: expected CFG WEIGHTS NAMES or FILE.onnx NAMES, found " +
-                              std::to_string(network.size()) + " files");
+                              std::to_string(network.size()) + " files (--help shows the usage)");
   }
   options.weights = num_files == 3 ? network[1] : "";
   return network.back();
