@@ -17,5 +17,7 @@ LiveView::LiveView(const Setup& /*setup*/) { SEMSLAM_CHECK(false) << *WhyNoViewe
 LiveView::~LiveView() = default;
 bool LiveView::is_open() const { return false; }
 std::optional<std::string> LiveView::TakeFailure() { return std::nullopt; }
+// As in live_view.cc, which keeps it.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void LiveView::ShowResult(std::shared_ptr<const semslam::PointCloudMapping::Result> /*result*/) {}
 void LiveView::WaitUntilClosed(const std::function<bool()>& /*should_stop*/) {}

@@ -26,13 +26,18 @@ namespace {
 using semslam::ColorMode;
 using semslam::Viewpoint;
 
-const std::map<std::string, Viewpoint> kViewpoints = {
-    {"top", Viewpoint::kTop},   {"view", Viewpoint::kPerspective}, {"front", Viewpoint::kFront},
-    {"back", Viewpoint::kBack}, {"left", Viewpoint::kLeft},        {"right", Viewpoint::kRight}};
-const std::map<std::string, ColorMode> kColorModes = {{"photo", ColorMode::kPhoto},
-                                                      {"segments", ColorMode::kSegments},
-                                                      {"classes", ColorMode::kClasses},
-                                                      {"height", ColorMode::kHeight}};
+std::map<std::string, Viewpoint> Viewpoints() {
+  return {{"top", Viewpoint::kTop},     {"view", Viewpoint::kPerspective},
+          {"front", Viewpoint::kFront}, {"back", Viewpoint::kBack},
+          {"left", Viewpoint::kLeft},   {"right", Viewpoint::kRight}};
+}
+
+std::map<std::string, ColorMode> ColorModes() {
+  return {{"photo", ColorMode::kPhoto},
+          {"segments", ColorMode::kSegments},
+          {"classes", ColorMode::kClasses},
+          {"height", ColorMode::kHeight}};
+}
 
 struct Arguments {
   std::filesystem::path map;
@@ -58,9 +63,9 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                  "No window: write a picture; needs no window system")
       ->type_name("FILE.png");
   app.add_option("--from", arguments.from, "Where the picture is taken from (default: view)")
-      ->check(CLI::IsMember(Names(kViewpoints)));
+      ->check(CLI::IsMember(Names(Viewpoints())));
   app.add_option("--color", arguments.color, "What the colours tell (default: photo)")
-      ->check(CLI::IsMember(Names(kColorModes)));
+      ->check(CLI::IsMember(Names(ColorModes())));
   app.add_option("--size", arguments.size, "Of picture or window (default: 1280x800)")
       ->type_name("WxH");
   app.add_option("--eye-dome", arguments.eye_dome, "Shading by depth (default: on)")
@@ -79,8 +84,8 @@ void ParseSize(const std::string& text, int* width, int* height) {
 semslam::PictureOptions Options(const Arguments& arguments) {
   semslam::PictureOptions options;
   ParseSize(arguments.size, &options.width, &options.height);
-  options.from = kViewpoints.at(arguments.from);
-  options.color = kColorModes.at(arguments.color);
+  options.from = Viewpoints().at(arguments.from);
+  options.color = ColorModes().at(arguments.color);
   options.eye_dome = arguments.eye_dome == "on";
   const bool overlay = arguments.overlay == "on";
   options.legend = overlay;
