@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <algorithm>
+
 #include "semslam/base/check.h"
 #include "semslam/mapping/appearance_update.h"
 

@@ -269,10 +269,11 @@ std::vector<System::TrackedPose> System::CameraTrajectory() const {
 
 std::vector<System::TrackedPose> System::KeyframeTrajectory() const {
   return map_.Read([](const Map& map) {
+    const std::optional<KeyframeId> main = map.MainPiece();
     std::vector<TrackedPose> poses;
     for (const KeyframeId id : map.KeyframeIds()) {
       const Keyframe& keyframe = map.keyframe(id);
-      if (keyframe.piece != map.MainPiece()) continue;
+      if (keyframe.piece != main) continue;
       poses.push_back({keyframe.frame->time, keyframe.T_world_camera});
     }
     // A map may be made of several recordings, of any order.

@@ -14,6 +14,7 @@
 #include "semslam/base/stopwatch.h"
 #include "semslam/viewer/picture.h"
 
+#include "viewer/line_styles.h"
 #include "viewer/live_panels.h"
 #include "viewer/live_points.h"
 #include "viewer/panels.h"
@@ -37,10 +38,6 @@ constexpr LineStyle kTreeStyle{
     .color = {96, 220, 160}, .alpha = 0.6F, .width = 1.2F, .hidden_share = 0.1F};
 constexpr LineStyle kLoopStyle{
     .color = {255, 80, 110}, .alpha = 0.95F, .width = 2.2F, .hidden_share = 0.4F};
-constexpr LineStyle kKeyframeStyle{
-    .color = {120, 185, 255}, .alpha = 0.75F, .width = 1.2F, .hidden_share = 0.15F};
-constexpr LineStyle kPathStyle{
-    .color = {255, 176, 32}, .alpha = 0.95F, .width = 2.0F, .hidden_share = 0.25F};
 constexpr LineStyle kCameraStyle{
     .color = {255, 236, 120}, .alpha = 1.0F, .width = 2.4F, .hidden_share = 0.6F};
 
@@ -276,7 +273,7 @@ class LiveWindow {
       for (const Rigid3& keyframe : graph_.keyframes)
         list.AddFrustum(keyframe, half_width_, half_height_, kKeyframeDepth, kKeyframeStyle);
     }
-    if (choices_.overlay.trajectory) list.AddPath(graph_.trajectory, kPathStyle);
+    if (choices_.overlay.trajectory) list.AddPath(graph_.trajectory, kTrajectoryStyle);
     const auto frame = source_.frame();
     if (frame != nullptr && frame->T_world_camera)
       list.AddFrustum(*frame->T_world_camera, half_width_, half_height_, kCameraDepth,

@@ -10,15 +10,13 @@
 
 #include "semslam/io/segment_color.h"
 
+#include "viewer/line_styles.h"
+
 namespace semslam {
 namespace {
 
 constexpr LineStyle kGridStyle{
     .color = {150, 165, 185}, .alpha = 0.22F, .width = 1.0F, .hidden_share = 0};
-constexpr LineStyle kTrajectoryStyle{
-    .color = {255, 176, 32}, .alpha = 0.95F, .width = 2.0F, .hidden_share = 0.25F};
-constexpr LineStyle kKeyframeStyle{
-    .color = {120, 185, 255}, .alpha = 0.75F, .width = 1.2F, .hidden_share = 0.15F};
 constexpr float kHiddenBox = 0.3F;
 
 const ClassRecord* FindClass(std::uint32_t label, std::span<const ClassRecord> classes) {
@@ -37,17 +35,12 @@ double GridSpacing(double extent) {
   return 10 * power;
 }
 
-// The extent of the cloud along an axis, without the few points beyond.
-HeightRange RangeAlong(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& axis) {
-  return FindHeightRange(points, axis);
-}
-
 void AddFloor(const MapScene& scene, const LevelFrame& level, DrawList* list) {
   const std::span<const Eigen::Vector3f> points = scene.map.cloud.positions;
   if (points.empty()) return;
-  const HeightRange heights = RangeAlong(points, level.up);
-  const HeightRange right = RangeAlong(points, level.right);
-  const HeightRange forward = RangeAlong(points, level.forward);
+  const HeightRange heights = FindHeightRange(points, level.up);
+  const HeightRange right = FindHeightRange(points, level.right);
+  const HeightRange forward = FindHeightRange(points, level.forward);
   const double extent = std::max({right.high - right.low, forward.high - forward.low, 0.1});
   const double spacing = GridSpacing(1.6 * extent);
   const auto snap = [spacing](double a, double b) {
