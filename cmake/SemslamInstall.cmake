@@ -36,8 +36,8 @@ set(semslam_packages
   "^ImGui::|ImGui"
   "^(Boost::headers|Boost::boost)$|Boost"
   "^Boost::|Boost COMPONENTS @COMPONENTS@"
-  "^opencv_|OpenCV 4.5 COMPONENTS @COMPONENTS@"
-  "^pcl_|PCL 1.12 COMPONENTS @COMPONENTS@")
+  "^liblzf::|liblzf 3.6"
+  "^opencv_|OpenCV 4.5 COMPONENTS @COMPONENTS@")
 
 # Sets `result` to the plain names that the modules link from outside the project.
 function(semslam_external_links result)
@@ -69,7 +69,7 @@ function(semslam_find_lines result)
     foreach(name IN LISTS ARGN)
       if(name MATCHES "${pattern}")
         list(REMOVE_ITEM ARGN ${name})
-        string(REGEX REPLACE "^(.*::|opencv_|pcl_)" "" component ${name})
+        string(REGEX REPLACE "^(.*::|opencv_)" "" component ${name})
         list(APPEND components ${component})
       endif()
     endforeach()
@@ -80,10 +80,6 @@ function(semslam_find_lines result)
       string(APPEND lines "find_dependency(${call})\n")
     endif()
   endforeach()
-  if(lines MATCHES "PCL")
-    # VTK, which PCL's package finds, works only with C enabled.
-    string(PREPEND lines "if(NOT CMAKE_C_COMPILER_LOADED)\n  enable_language(C)\nendif()\n")
-  endif()
   if(ARGN)
     message(FATAL_ERROR "cmake/SemslamInstall.cmake: no package is known for the linked ${ARGN}")
   endif()

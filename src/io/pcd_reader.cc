@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl/io/lzf.h>
+#include <liblzf/lzf.h>
 
 #include "semslam/base/error.h"
 #include "semslam/io/cloud_io.h"
@@ -124,12 +124,12 @@ std::string Decompress(const std::string& name, const PcdHeader& header, std::st
                      std::to_string(header.num_points * header.PointSize()) + " bytes, the data " +
                      std::to_string(size));
   }
-  if (size == 0) return "";  // PCL would read a byte that is not there.
+  if (size == 0) return "";  // The library would read a byte that is not there.
   // Code grows to 88 times its size at most: no memory is asked for that it cannot fill.
   constexpr std::size_t kMaxGrowth = 88;
   std::string result(size <= kMaxGrowth * compressed_size ? size : 0, '\0');
   if (result.size() != size ||
-      pcl::lzfDecompress(bytes.data() + kSizes, compressed_size, result.data(), size) != size) {
+      lzf_decompress(bytes.data() + kSizes, compressed_size, result.data(), size) != size) {
     throw InputError(name + ": PCD file is damaged: cannot be decompressed");
   }
   return result;

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/PCLPointField.h>
-#include <pcl/io/pcd_io.h>
+#include <liblzf/lzf.h>
 
+#include "semslam/base/check.h"
 #include "semslam/base/error.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/cloud_io.h"
@@ -22,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCD files are little-endian");
 
-constexpr std::uint32_t kValueSize = 4;  // Bytes of every value that we write.
+constexpr std::size_t kValueSize = 4;  // Bytes of every value that we write.
 
 std::vector<CloudColumn> PcdColumns(const CloudView& cloud) {
   std::vector<CloudColumn> columns = PositionColumns();
@@ -34,47 +33,62 @@ std::vector<CloudColumn> PcdColumns(const CloudView& cloud) {
   return columns;
 }
 
-// PCL compresses into a buffer of 3/2 the size, which it counts in 32 bits.
-bool FitsIntoPcd(std::size_t num_bytes) {
-  return num_bytes <= std::numeric_limits<std::uint32_t>::max() / 3 * 2;
-}
-
-pcl::PCLPointCloud2 ToPcl(const CloudView& cloud, const std::vector<CloudColumn>& columns) {
-  const std::size_t num_points = cloud.positions.size();
-  pcl::PCLPointCloud2 result;
+// All values of the first column, then all of the next: like values compress best.
+std::string ColumnByColumn(const CloudView& cloud, const std::vector<CloudColumn>& columns) {
+  std::string bytes(kValueSize * columns.size() * cloud.positions.size(), '\0');
+  char* output = bytes.data();
   for (const CloudColumn& column : columns) {
-    pcl::PCLPointField field;
-    field.name = column.name;
-    field.offset = kValueSize * static_cast<std::uint32_t>(result.fields.size());
-    field.datatype = column.type == 'F' ? pcl::PCLPointField::FLOAT32 : pcl::PCLPointField::UINT32;
-    field.count = 1;
-    result.fields.push_back(field);
-  }
-  result.width = static_cast<std::uint32_t>(num_points);
-  result.height = 1;
-  result.point_step = kValueSize * static_cast<std::uint32_t>(columns.size());
-  result.row_step = result.point_step * result.width;
-  result.data.resize(std::size_t{result.point_step} * num_points);
-  auto* output = reinterpret_cast<char*>(result.data.data());
-  for (std::size_t point = 0; point < num_points; ++point) {
-    for (const CloudColumn& column : columns) {
+    for (std::size_t point = 0; point < cloud.positions.size(); ++point) {
       column.write(cloud, point, output);
       output += kValueSize;
     }
   }
-  return result;
+  return bytes;
 }
 
-// Without points PCL writes the same, but with a warning to the terminal.
-int WriteCompressed(const pcl::PCLPointCloud2& cloud, std::ostream& output) {
-  pcl::PCDWriter writer;
-  if (!cloud.data.empty()) return writer.writeBinaryCompressed(output, cloud);
-  const int result = writer.generateHeaderBinaryCompressed(output, cloud, Eigen::Vector4f::Zero(),
-                                                           Eigen::Quaternionf::Identity());
-  output << "DATA binary_compressed\n";
-  constexpr char kNoBytesOfNone[2 * sizeof(std::uint32_t)] = {};
-  output.write(kNoBytesOfNone, sizeof(kNoBytesOfNone));
-  return result;
+// Version 0.7; the words of all columns in one line each.
+std::string Header(const std::vector<CloudColumn>& columns, std::size_t num_points) {
+  std::string names;
+  std::string sizes;
+  std::string types;
+  std::string counts;
+  for (const CloudColumn& column : columns) {
+    names += " " + column.name;
+    sizes += " " + std::to_string(kValueSize);
+    types += std::string(" ") + column.type;
+    counts += " 1";
+  }
+  const std::string count = std::to_string(num_points);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS" + names + "\nSIZE" +
+         sizes + "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " + count +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary_compressed\n";
+}
+
+void AppendSize(std::size_t size, std::string* bytes) {
+  const auto value = static_cast<std::uint32_t>(size);
+  bytes->append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+// The sizes after and before compression, and the compressed bytes, onto `file`.
+void AppendCompressed(const std::string& bytes, std::string* file) {
+  // What cannot be compressed grows by a byte in 32.
+  const std::size_t room = bytes.size() + bytes.size() / 16 + 64;
+  const std::size_t sizes = file->size();
+  AppendSize(0, file);
+  AppendSize(bytes.size(), file);
+  if (bytes.empty()) return;
+  const std::size_t begin = file->size();
+  file->resize(begin + room);
+  const unsigned compressed = lzf_compress(bytes.data(), static_cast<unsigned>(bytes.size()),
+                                           file->data() + begin, static_cast<unsigned>(room));
+  SEMSLAM_CHECK(compressed > 0) << bytes.size() << " bytes into " << room;
+  file->resize(begin + compressed);
+  std::memcpy(file->data() + sizes, &compressed, sizeof(compressed));
+}
+
+// Sizes have 32 bits in the file and in the library, with room to grow.
+bool FitsIntoPcd(std::size_t num_bytes) {
+  return num_bytes <= std::numeric_limits<std::uint32_t>::max() / 8 * 7;
 }
 
 }  // namespace
@@ -82,14 +96,15 @@ int WriteCompressed(const pcl::PCLPointCloud2& cloud, std::ostream& output) {
 void WritePcd(const std::filesystem::path& path, const CloudView& cloud) {
   CheckLengths(cloud);
   const std::vector<CloudColumn> columns = PcdColumns(cloud);
-  std::ostringstream bytes;
-  if (!FitsIntoPcd(kValueSize * columns.size() * cloud.positions.size()) ||
-      WriteCompressed(ToPcl(cloud, columns), bytes) != 0 || !bytes) {
-    throw InputError(path.string() + ": cannot write: PCL cannot compress " +
-                     std::to_string(cloud.positions.size()) + " points of " +
-                     std::to_string(kValueSize * columns.size()) + " bytes");
+  const std::size_t num_bytes = kValueSize * columns.size() * cloud.positions.size();
+  if (!FitsIntoPcd(num_bytes)) {
+    throw InputError(path.string() + ": cannot write: expected less than 3.7 GB for a compressed " +
+                     "PCD file, found " + std::to_string(num_bytes) + " bytes in " +
+                     std::to_string(cloud.positions.size()) + " points");
   }
-  WriteFileAtomically(path, bytes.view());
+  std::string file = Header(columns, cloud.positions.size());
+  AppendCompressed(ColumnByColumn(cloud, columns), &file);
+  WriteFileAtomically(path, file);
 }
 
 }  // namespace semslam

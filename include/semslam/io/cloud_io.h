@@ -49,7 +49,7 @@ struct CloudColumns {
 
 // Writes a binary-compressed PCD file with the fields x y z, rgba (alpha 255), normal_x normal_y
 // normal_z, label, segment, object, confidence, as far as given: so XYZRGBA, XYZL and XYZRGBL for
-// PCL, which writes the file, CloudCompare, MeshLab and Open3D. It holds at most 2.8 GB of values.
+// PCL, CloudCompare, MeshLab and Open3D. It holds at most 3.7 GB of values.
 // Throws InputError.
 void WritePcd(const std::filesystem::path& path, const CloudView& cloud);
 
