@@ -36,7 +36,9 @@ set(semslam_packages
   "^ImGui::|ImGui"
   "^(Boost::headers|Boost::boost)$|Boost"
   "^Boost::|Boost COMPONENTS @COMPONENTS@"
+  "^libjpeg-turbo::|libjpeg-turbo 2.1"
   "^liblzf::|liblzf 3.6"
+  "^spng::|spng 0.7"
   "^opencv_|OpenCV 4.5 COMPONENTS @COMPONENTS@")
 
 # Sets `result` to the plain names that the modules link from outside the project.
@@ -94,4 +96,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/semslam-config-version.cm
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/semslam-config.cmake ${PROJECT_BINARY_DIR}/semslam-config-version.cmake
   DESTINATION ${package_dir})
-install(FILES Thirdparty/cmake/FindImGui.cmake Thirdparty/cmake/FindOpenNI2.cmake DESTINATION ${package_dir})
+install(FILES Thirdparty/cmake/FindImGui.cmake Thirdparty/cmake/FindOpenNI2.cmake
+        Thirdparty/cmake/Findspng.cmake DESTINATION ${package_dir})

@@ -7,10 +7,9 @@
 #include <array>
 #include <string>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "semslam/base/error.h"
 #include "semslam/io/atomic_file.h"
+#include "semslam/io/jpeg.h"
 #include "semslam/io/object_views.h"
 
 #include "format_line.h"
@@ -146,9 +145,7 @@ std::vector<semslam::LiveSighting> RunSource::Sightings(const semslam::ObjectRec
   const semslam::PinholeCamera camera(setup_.settings.camera);
   std::vector<semslam::LiveSighting> sightings;
   for (const auto& view : semslam::FindObjectViews(object, keyframes, camera, kMaxViews)) {
-    const std::string& jpeg = keyframes[view.keyframe].jpeg;
-    const cv::Mat image =
-        cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+    const cv::Mat image = semslam::DecodeJpeg(keyframes[view.keyframe].jpeg);
     const cv::Rect box(cv::Point(static_cast<int>(view.box.min_x) - kMargin,
                                  static_cast<int>(view.box.min_y) - kMargin),
                        cv::Point(static_cast<int>(view.box.max_x) + kMargin,

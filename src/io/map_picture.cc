@@ -11,12 +11,11 @@
 #include <string>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/check.h"
-#include "semslam/io/atomic_file.h"
 #include "semslam/io/level_frame.h"
+#include "semslam/io/png_writer.h"
 #include "semslam/io/segment_color.h"
 
 #include "io/cloud_columns.h"
@@ -311,9 +310,7 @@ void WriteMapPictures(const std::filesystem::path& folder,
   for (const auto& [name, view] :
        {std::pair("semantic_map_top.png", MapPictureView::kTop),
         std::pair("semantic_map_view.png", MapPictureView::kPerspective)}) {
-    std::vector<unsigned char> png;
-    cv::imencode(".png", DrawMapPicture(map, view, options), png);
-    WriteFileAtomically(folder / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+    WritePng(folder / name, DrawMapPicture(map, view, options), PngContent::kFlat);
   }
 }
 

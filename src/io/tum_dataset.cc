@@ -7,12 +7,10 @@
 #include <string>
 #include <system_error>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "semslam/base/error.h"
 
 #include "io/image_list.h"
-#include "io/png_file.h"
+#include "io/png_reader.h"
 #include "io/text_file.h"
 
 namespace semslam {
@@ -31,28 +29,22 @@ template <typename Predicate>
 cv::Mat ReadPng(const std::filesystem::path& path,
                 const TumDataset::Options& options,
                 const std::string& expected,
-                cv::ImreadModes mode,
+                PngPixels pixels,
                 Predicate is_expected) {
-  std::string bytes = ReadWholeFile(path);
-  const PngHeader header = CheckPng(path.string(), bytes);
+  const std::string bytes = ReadWholeFile(path);
+  PngReader reader(path.string(), bytes);
+  const PngHeader& header = reader.header();
   if (header.width != options.width || header.height != options.height || !is_expected(header)) {
     throw InputError(path.string() + ": expected " + std::to_string(options.width) + "x" +
                      std::to_string(options.height) + ", " + expected + ", found " +
                      Describe(header));
   }
-  cv::Mat image;
-  try {
-    image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), mode);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
-  if (image.empty()) throw InputError(path.string() + ": PNG image is damaged: cannot be decoded");
-  return image;
+  return reader.Decode(pixels);
 }
 
 cv::Mat ReadColor(const std::filesystem::path& path, const TumDataset::Options& options) {
   const auto is_expected = [](const PngHeader& header) { return header.bit_depth <= 8; };
-  return ReadPng(path, options, "8-bit, colour or grey", cv::IMREAD_COLOR, is_expected);
+  return ReadPng(path, options, "8-bit, colour or grey", PngPixels::kBgr8, is_expected);
 }
 
 cv::Mat ReadDepth(const std::filesystem::path& path, const TumDataset::Options& options) {
@@ -60,7 +52,7 @@ cv::Mat ReadDepth(const std::filesystem::path& path, const TumDataset::Options& 
     return header.bit_depth == 16 && header.num_channels == 1;
   };
   const cv::Mat raw =
-      ReadPng(path, options, "16-bit, 1 channel", cv::IMREAD_UNCHANGED, is_expected);
+      ReadPng(path, options, "16-bit, 1 channel", PngPixels::kAsStored, is_expected);
   return DepthToMetres(raw, options.depth_factor);
 }
 

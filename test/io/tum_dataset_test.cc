@@ -159,7 +159,7 @@ TEST_F(TumDatasetTest, SkipsATruncatedImageWhereverItIsCut) {
     folder_.Write("depth/2.png", whole.substr(0, whole.size() * percent / 100));
     EXPECT_THAT(ErrorOfSecondFrame(), HasSubstr("depth/2.png: PNG image is cut short after "));
   }
-  folder_.Write("depth/2.png", whole.substr(0, whole.size() - 1));
+  folder_.Write("depth/2.png", whole.substr(0, whole.size() - 5));
   EXPECT_THAT(ErrorOfSecondFrame(), HasSubstr("depth/2.png: PNG image is cut short after "));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <opencv2/core/mat.hpp>
 
@@ -11,7 +12,10 @@ namespace semslam {
 // How the values of an image go together, for fast and good compression.
 enum class PngContent { kPhoto, kFlat };
 
-// Writes a PNG file, whole or not at all. Throws InputError.
+// The bytes of a PNG file; `image` is CV_8UC1, CV_8UC3 or CV_16UC1, and not empty.
+std::string EncodePng(const cv::Mat& image, PngContent content);
+
+// Writes them as a file, whole or not at all. Throws InputError.
 void WritePng(const std::filesystem::path& path, const cv::Mat& image, PngContent content);
 
 }  // namespace semslam

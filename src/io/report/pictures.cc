@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "semslam/base/parallel.h"
@@ -22,15 +21,8 @@ constexpr int kObjectWidth = 192;  // Pixels of a 4:3 picture.
 constexpr int kObjectHeight = 144;
 constexpr int kQuality = 72;
 
-// Empty if it is no image.
-cv::Mat Decode(const std::string& jpeg) {
-  if (jpeg.empty()) return {};
-  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8UC1, const_cast<char*>(jpeg.data()));
-  return cv::imdecode(bytes, cv::IMREAD_COLOR);
-}
-
 std::string Shrink(const std::string& jpeg, int width) {
-  const cv::Mat image = Decode(jpeg);
+  const cv::Mat image = DecodeJpeg(jpeg);
   if (image.empty()) return "";
   cv::Mat small;
   const int height = std::max(1, cvRound(1.0 * image.rows * width / image.cols));
@@ -175,7 +167,7 @@ std::vector<std::string> MakeObjectPictures(const ReportData& data,
   std::vector<std::string> pictures(views.size());
   ParallelFor(groups.size(), 1, 0, [&](std::size_t first, std::size_t last) {
     for (std::size_t g = first; g < last; ++g) {
-      const cv::Mat image = Decode(data.keyframes[groups[g].first].jpeg);
+      const cv::Mat image = DecodeJpeg(data.keyframes[groups[g].first].jpeg);
       if (image.empty()) continue;
       for (const std::size_t i : groups[g].second) pictures[i] = CropObject(image, views[i]->box);
     }
