@@ -39,6 +39,7 @@ LocalMapping::LocalMapping(const Options& options,
       map_(map) {
   options_.Validate();
   SEMSLAM_CHECK(vocabulary_ != nullptr);
+  map_.Write([&](Map& m) { m.ReserveWords(vocabulary_->num_words()); });
 }
 
 LocalMapping::Report LocalMapping::Process(KeyframeId keyframe,

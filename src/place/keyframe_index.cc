@@ -9,6 +9,10 @@
 
 namespace semslam {
 
+void KeyframeIndex::ReserveWords(std::size_t num_words) {
+  newest_.resize(std::max(newest_.size(), num_words), kNone);
+}
+
 void KeyframeIndex::Add(KeyframeId keyframe, const BowVector& bow) {
   for (const BowVector::Entry& entry : bow.entries) {
     if (entry.word >= newest_.size()) newest_.resize(std::size_t{entry.word} + 1, kNone);

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdint>
-#include <vector>
+#include <string>
 
 #include <benchmark/benchmark.h>
-#include <opencv2/imgcodecs.hpp>
 
+#include "semslam/io/png_writer.h"
 #include "semslam/render/clip.h"
 
 namespace semslam {
@@ -78,11 +77,10 @@ BENCHMARK(BM_SenseDepth)->Unit(benchmark::kMillisecond);
 void BM_EncodePng(benchmark::State& state) {
   const RenderedFrame frame = RenderedClip(DeskOptions()).Frame(kFrame);
   const cv::Mat images[] = {frame.color, frame.depth_16u, frame.ideal.labels};
-  const int strategy =
-      state.range(0) == 0 ? cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY : cv::IMWRITE_PNG_STRATEGY_RLE;
-  std::vector<std::uint8_t> bytes;
+  const PngContent content = state.range(0) == 0 ? PngContent::kPhoto : PngContent::kFlat;
+  std::string bytes;
   for (auto _ : state) {
-    cv::imencode(".png", images[state.range(0)], bytes, {cv::IMWRITE_PNG_STRATEGY, strategy});
+    bytes = EncodePng(images[state.range(0)], content);
     benchmark::DoNotOptimize(bytes.data());
   }
   state.counters["kB"] = static_cast<double>(bytes.size()) / 1000;

@@ -59,6 +59,9 @@ class Map {
   void SetPose(KeyframeId keyframe, const Rigid3& T_world_camera);
   void SetPosition(LandmarkId landmark, const Eigen::Vector3d& p_world);
   void SetAppearance(LandmarkId landmark, const LandmarkAppearance& appearance);
+  // Makes room for the words of a vocabulary, so that the first SetWords takes no longer than
+  // others.
+  void ReserveWords(std::size_t num_words) { keyframe_index_.ReserveWords(num_words); }
   // From now on the keyframe can be found by its words.
   void SetWords(KeyframeId keyframe, std::shared_ptr<const BagOfWords> words);
   void CountSightings(LandmarkId landmark, int num_visible, int num_found);

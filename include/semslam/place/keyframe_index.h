@@ -22,6 +22,8 @@ class KeyframeIndex {
     float score = 0;  // As Score() of the two vectors.
   };
 
+  // Takes the memory for so many different words now, rather than when they are added.
+  void ReserveWords(std::size_t num_words);
   // A keyframe must not be added twice.
   void Add(KeyframeId keyframe, const BowVector& bow);
   // With the vector it was added with; std::logic_error if it was not.
