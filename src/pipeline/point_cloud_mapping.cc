@@ -3,6 +3,7 @@
 
 #include "semslam/pipeline/point_cloud_mapping.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "semslam/base/stopwatch.h"
@@ -68,6 +69,8 @@ std::shared_ptr<const PointCloudMapping::Result> PointCloudMapping::preview() co
 
 void PointCloudMapping::Process(Job job) {
   Do(std::move(job));
+  // Segments are made to be looked at: what waits to be integrated goes first.
+  if (stage_.queue_size() == 0) FollowWithSegments();
   const bool is_wanted = sight_.Read([](const Sight& sight) { return sight.preview_is_wanted; });
   // Keyframes may wait a little, as long as nobody has to wait for room in the queue.
   if (is_wanted && stage_.queue_size() <= options_.queue_capacity / 4) ShowPreview();
@@ -98,10 +101,21 @@ void PointCloudMapping::Do(Job job) {
       detections_[job.keyframe] = std::move(job.detections);
       return;
     case Job::Kind::kCorrection:
-      FollowPoses(options_.voxels.max_shift);
-      return live_segments_.FollowCorrection();
+      segments_lag_ = Lag::kMap;
+      return FollowPoses(options_.voxels.max_shift);
     case Job::Kind::kPreview:
       return;  // It comes after everything.
+  }
+}
+
+void PointCloudMapping::FollowWithSegments() {
+  switch (std::exchange(segments_lag_, Lag::kNone)) {
+    case Lag::kNone:
+      return;
+    case Lag::kKeyframe:
+      return live_segments_.Follow();
+    case Lag::kMap:
+      return live_segments_.FollowCorrection();
   }
 }
 
@@ -113,7 +127,7 @@ void PointCloudMapping::Integrate(KeyframeId keyframe, const RgbdImage& image) {
   FollowPoses(options_.voxels.max_shift);
   integration_seconds_ += stopwatch.Seconds();
   ++num_integrated_;
-  live_segments_.Follow();
+  segments_lag_ = std::max(segments_lag_, Lag::kKeyframe);
   num_voxels_.Write([&](std::size_t& n) { n = voxel_map_.num_voxels(); });
 }
 

@@ -19,9 +19,9 @@ struct SegmentedCloud {
   std::vector<SegmentId> segment_of_point;  // 0: none yet. Ids stay from one map to the next.
 };
 
-// Keeps the segments of a voxel map in step with it: after every keyframe the region that has
-// changed most is segmented again, after a correction all that has moved. Belongs to the thread of
-// the voxel map, but for RequestMap and map.
+// Keeps the segments of a voxel map in step with it: after every keyframe, or several of them, the
+// region that has changed most is segmented again, after a correction all that has moved. Belongs
+// to the thread of the voxel map, but for RequestMap and map.
 class LiveSegments {
  public:
   struct Options {

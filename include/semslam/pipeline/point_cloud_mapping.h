@@ -112,6 +112,9 @@ class PointCloudMapping {
     std::vector<Detection> detections = {};
   };
 
+  // How much of the map the live segments have not followed yet.
+  enum class Lag { kNone, kKeyframe, kMap };
+
   // What may be looked at while it runs.
   struct Sight {
     std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds;
@@ -124,6 +127,7 @@ class PointCloudMapping {
   void ShowPreview();
   Result Build(const Segmenter::Options& segmentation, const SemanticMap* previous) const;
   void Integrate(KeyframeId keyframe, const RgbdImage& image);
+  void FollowWithSegments();
   void FollowPoses(double max_shift);
   std::vector<LabelledKeyframe> LabelledKeyframes() const;
 
@@ -135,6 +139,7 @@ class PointCloudMapping {
   // The stage's own, until it has finished.
   VoxelMap voxel_map_;
   LiveSegments live_segments_;
+  Lag segments_lag_ = Lag::kNone;
   std::map<KeyframeId, std::shared_ptr<const KeyframeCloud>> clouds_;
   std::map<KeyframeId, std::vector<Detection>> detections_;
   // What made the newest preview.
