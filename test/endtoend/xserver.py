@@ -17,7 +17,7 @@ X11 = ctypes.util.find_library("X11")
 XTST = ctypes.util.find_library("Xtst")
 MISSING = [name for name, found in [("Xvfb", XVFB), ("libX11", X11), ("libXtst", XTST)]
            if not found]
-PICTURE = 0.7  # Seconds; a window drawn in software on a busy machine shows a picture in that time.
+PICTURE = 0.5  # Seconds; a window drawn in software on a busy machine shows a picture in that time.
 ERROR_HANDLER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
 
 
@@ -107,16 +107,6 @@ class Screen:
         self.move(x, y)
         time.sleep(0.1)
         self.press(button, True)
-        self.press(button, False)
-
-    def drag(self, start, end, button):
-        """Moves the mouse with the button down. Programs look at it now and then."""
-        self.move(*start)
-        time.sleep(PICTURE)
-        self.press(button, True)
-        time.sleep(PICTURE)
-        self.move(*end)
-        time.sleep(PICTURE)
         self.press(button, False)
 
     def pixels(self):
