@@ -118,20 +118,20 @@ class Screen:
             return [data[start + row * header[12]:start + row * header[12] + 4 * self.width]
                     for row in range(self.height)]
 
-    def num_colors(self, left=0, right=None):
-        """Among every third pixel between two columns."""
+    def num_colors(self, left=0, right=None, top=0, bottom=None):
+        """Among every third pixel of a part."""
         right = right or self.width
-        return len({row[i:i + 3] for row in self.pixels()[::3]
+        return len({row[i:i + 3] for row in self.pixels()[top:bottom:3]
                     for i in range(4 * left, 4 * right, 12)})
 
-    def wait_for_colors(self, least, seconds=60, **columns):
+    def wait_for_colors(self, least, seconds=60, **part):
         """Until so many different ones are shown; how many there were at last."""
         end = time.monotonic() + seconds
         while True:
-            count = self.num_colors(**columns)
+            count = self.num_colors(**part)
             if count >= least or time.monotonic() > end:
                 return count
-            time.sleep(0.1)
+            time.sleep(0.05)
 
     def close(self):
         self.x11.XCloseDisplay(self.display)
