@@ -205,11 +205,12 @@ class RunWindowTest(ButtonsTest):
 
     def check_objects(self):
         scene, panel = self.settled(), self.look(OBJECTS)
-        shown = self.after("last object", panel, OBJECTS)
+        self.after("last object", panel, OBJECTS)
+        shown = self.settled(OBJECTS, 4 * xserver.PICTURE)  # The panel finds its size by and by.
         self.assertNotEqual(self.look(), scene, "the camera does not fly there")
         self.screen.click(*NOTHING)
         self.wait_until(lambda: self.look(OBJECTS) != shown, "it stays selected")
-        empty = self.settled(OBJECTS)
+        empty = self.settled(OBJECTS, 4 * xserver.PICTURE)
         self.screen.click(WIDTH // 2, HEIGHT // 2)  # On the object, at which the camera looks.
         self.wait_until(lambda: self.look(OBJECTS) == shown, "another object, or none")
         self.screen.click(*NOTHING)
