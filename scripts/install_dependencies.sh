@@ -24,7 +24,7 @@ packages=(
   libbenchmark-dev libgmock-dev libgtest-dev
 )
 lint_packages=(clang-format-14 clang-tidy-14)
-browser_packages=(chromium chromium-driver xvfb)
+browser_packages=(chromium chromium-driver xvfb libxtst6)
 
 list_only=false
 for argument in "$@"; do

@@ -77,6 +77,11 @@ semslam::System::PendingLabels AtTheEnd(const MappingArguments& arguments, bool 
                              : semslam::System::PendingLabels::kFinish;
 }
 
+void ReportFailure(LiveView* view, ProgressLine& progress) {
+  if (const std::optional<std::string> failure = view->TakeFailure())
+    progress.Report("the run goes on without a viewer: " + *failure);
+}
+
 // A window on the system, tied to the run's loop. Null without --viewer.
 std::unique_ptr<LiveView> OpenLiveView(const LiveView::Setup& setup,
                                        ProgressLine& progress,
@@ -86,8 +91,7 @@ std::unique_ptr<LiveView> OpenLiveView(const LiveView::Setup& setup,
   options->before_frame = [state = setup.state, system = setup.system, view = view.get(),
                            should_stop = options->should_stop, &progress] {
     state->ObeyBetweenFrames(*system, should_stop);
-    if (const std::optional<std::string> failure = view->TakeFailure())
-      progress.Report("the run goes on without a viewer: " + *failure);
+    ReportFailure(view, progress);
   };
   options->on_tracked = [state = setup.state](const semslam::RgbdImagePtr& image,
                                               const semslam::Tracking::Result& result) {
@@ -166,6 +170,7 @@ int MapFrames(const MappingArguments& arguments,
   } catch (const semslam::InputError& not_written) {
     if (error.empty()) error = not_written.what();
   }
+  if (window != nullptr) ReportFailure(window.get(), progress);  // Of a run of few frames.
   progress.Clear();
   PrintSummary(run, system, map, arguments.output);
   if (window != nullptr && arguments.viewer_stays) {

@@ -8,7 +8,7 @@
 
 std::optional<std::string> WhyNoViewer() {
   return "--viewer: this program was built without it: install libegl-dev, libopengl-dev, "
-         "libglfw3-dev and libimgui-dev, and build again";
+         "libglfw3-dev and libimgui-dev, and build again, not with SEMSLAM_VIEWER=OFF";
 }
 
 class LiveView::Window {};

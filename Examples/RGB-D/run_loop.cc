@@ -75,7 +75,6 @@ class Pacer {
  public:
   // Returns how late the frame is, seconds.
   double WaitFor(semslam::TimeNs time) {
-    using Clock = std::chrono::steady_clock;
     if (!first_time_) {
       first_time_ = time;
       start_ = Clock::now();
@@ -86,9 +85,15 @@ class Pacer {
     return late;
   }
 
+  // Nobody waited for frames in that time: the ones to come are due as much later.
+  void Shift(double seconds) {
+    start_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+
  private:
+  using Clock = std::chrono::steady_clock;
   std::optional<semslam::TimeNs> first_time_;
-  std::chrono::steady_clock::time_point start_;
+  Clock::time_point start_;
 };
 
 // Reads, tracks and counts. One for a run.
@@ -105,7 +110,7 @@ class Runner {
 
   RunStatistics Run() {
     while (true) {
-      if (options_.before_frame) options_.before_frame();
+      BetweenFrames();
       if (options_.should_stop()) break;
       std::optional<semslam::RgbdImage> image;
       try {
@@ -126,6 +131,13 @@ class Runner {
   }
 
  private:
+  void BetweenFrames() {
+    if (!options_.before_frame) return;
+    const semslam::Stopwatch pause;
+    options_.before_frame();
+    pacer_.Shift(pause.Seconds());
+  }
+
   void CountUnreadable(const std::string& error) {
     if (statistics_.num_unreadable < kMaxReports) progress_.Report("frame skipped: " + error);
     if (++statistics_.num_unreadable == kMaxReports)

@@ -17,6 +17,7 @@ constexpr ImU32 kLandmarkColor = IM_COL32(90, 235, 120, 255);
 constexpr ImU32 kOtherColor = IM_COL32(120, 160, 230, 150);
 
 ImTextureID ToImGui(unsigned texture) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): ImGui's back end takes OpenGL's names as pointers.
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
 }
 

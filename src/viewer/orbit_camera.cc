@@ -45,9 +45,9 @@ void OrbitCamera::LookAt(const Eigen::Vector3d& target, double distance) {
 void OrbitCamera::Fit(std::span<const Eigen::Vector3f> points, int width, int height) {
   const std::vector<Eigen::Vector3f> thinned = Thinned(points);
   if (thinned.empty()) return;
-  const Eigen::Matrix3f R = R_camera_world().cast<float>();
-  const Eigen::Vector3f forward = R.row(2);
-  const Eigen::Vector3f up = -R.row(1);
+  const Eigen::Matrix3f R_view_world = R_camera_world().cast<float>();
+  const Eigen::Vector3f forward = R_view_world.row(2);
+  const Eigen::Vector3f up = -R_view_world.row(1);
   const double horizontal = 2 * std::atan(0.5 * width / FocalLength(height));
   const ViewCamera camera =
       FitCamera(thinned, forward, up, static_cast<float>(horizontal), width, height);
@@ -64,9 +64,9 @@ void OrbitCamera::Turn(double azimuth, double elevation) {
 }
 
 void OrbitCamera::Pan(double dx, double dy, int height) {
-  const Eigen::Matrix3d R = R_camera_world();
+  const Eigen::Matrix3d R_view_world = R_camera_world();
   const double metres_per_pixel = distance_ / FocalLength(height);
-  target_ -= metres_per_pixel * (dx * R.row(0) + dy * R.row(1)).transpose();
+  target_ -= metres_per_pixel * (dx * R_view_world.row(0) + dy * R_view_world.row(1)).transpose();
 }
 
 void OrbitCamera::Zoom(double factor) { LookAt(target_, distance_ * factor); }
@@ -77,9 +77,9 @@ Eigen::Matrix3d OrbitCamera::R_camera_world() const {
   const Eigen::Vector3d level = c * frame_.forward + s * frame_.right;
   const Eigen::Vector3d x = c * frame_.right - s * frame_.forward;
   const Eigen::Vector3d z = std::cos(elevation_) * level - std::sin(elevation_) * frame_.up;
-  Eigen::Matrix3d R;
-  R << x.transpose(), z.cross(x).transpose(), z.transpose();
-  return R;
+  Eigen::Matrix3d R_view_world;
+  R_view_world << x.transpose(), z.cross(x).transpose(), z.transpose();
+  return R_view_world;
 }
 
 double OrbitCamera::FocalLength(int height) const {
@@ -87,10 +87,10 @@ double OrbitCamera::FocalLength(int height) const {
 }
 
 ViewCamera OrbitCamera::At(int width, int height) const {
-  const Eigen::Matrix3d R = R_camera_world();
+  const Eigen::Matrix3d R_view_world = R_camera_world();
   ViewCamera camera;
-  camera.R_camera_world = R.cast<float>();
-  camera.p_world = (target_ - distance_ * R.row(2).transpose()).cast<float>();
+  camera.R_camera_world = R_view_world.cast<float>();
+  camera.p_world = (target_ - distance_ * R_view_world.row(2).transpose()).cast<float>();
   camera.focal_length = static_cast<float>(FocalLength(height));
   camera.width = width;
   camera.height = height;

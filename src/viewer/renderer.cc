@@ -88,6 +88,7 @@ void Upload(GLenum target, const GlBuffer& buffer, const std::vector<T>& values,
   glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), usage);
 }
 
+// OpenGL takes places in buffers as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
 const void* Offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 // Lets the vertex array take every stride-th point.
@@ -125,10 +126,22 @@ class Renderer::State {
  public:
   State() { ArrangeLines(); }
 
+  ChunkId Add(Chunk chunk) {
+    const ChunkId id = next_chunk_++;
+    chunks_.emplace(id, std::move(chunk));
+    return id;
+  }
+  void Remove(ChunkId id) { SEMSLAM_CHECK(chunks_.erase(id) == 1) << "chunk " << id; }
+
   Chunk& Find(ChunkId id) {
     const auto chunk = chunks_.find(id);
     SEMSLAM_CHECK(chunk != chunks_.end()) << "chunk " << id;
     return chunk->second;
+  }
+  std::size_t num_points() const {
+    std::size_t count = 0;
+    for (const auto& [id, chunk] : chunks_) count += chunk.num_points;
+    return count;
   }
 
   void Draw(const ViewCamera& camera,
@@ -147,9 +160,6 @@ class Renderer::State {
     DrawLines(camera, list, options);
     glBindVertexArray(0);
   }
-
-  std::map<ChunkId, Chunk> chunks_;
-  ChunkId next_chunk_ = 1;
 
  private:
   // Near enough and far enough for all points, and for the lines about them.
@@ -204,10 +214,9 @@ class Renderer::State {
   }
 
   std::size_t Stride(std::size_t max_points) const {
-    std::size_t num_points = 0;
-    for (const auto& [id, chunk] : chunks_) num_points += chunk.num_points;
+    const std::size_t count = num_points();
     const std::size_t limit = std::max<std::size_t>(1, max_points);
-    return std::max<std::size_t>(1, num_points / limit + (num_points % limit != 0 ? 1 : 0));
+    return std::max<std::size_t>(1, count / limit + (count % limit != 0 ? 1 : 0));
   }
 
   void Compose(const Options& options) {
@@ -272,6 +281,8 @@ class Renderer::State {
     glBindVertexArray(0);
   }
 
+  std::map<ChunkId, Chunk> chunks_;
+  ChunkId next_chunk_ = 1;
   PointProgram squares_{kSquareFragmentShader};
   PointProgram discs_{kDiscFragmentShader};
   GlProgram compose_{kScreenVertexShader, kComposeFragmentShader};
@@ -304,8 +315,7 @@ Renderer::ChunkId Renderer::AddChunk(std::span<const Eigen::Vector3f> positions,
   }
   if (chunk.bounds.isEmpty()) chunk.bounds.extend(Eigen::Vector3f::Zero());
   Upload(GL_ARRAY_BUFFER, chunk.points, vertices, GL_STATIC_DRAW);
-  const ChunkId id = state_->next_chunk_++;
-  state_->chunks_.emplace(id, std::move(chunk));
+  const ChunkId id = state_->Add(std::move(chunk));
   SetColors(id, std::vector<Rgb>(positions.size(), Rgb{200, 200, 200}));
   return id;
 }
@@ -322,16 +332,9 @@ void Renderer::SetPose(ChunkId id, const Rigid3& T_world_chunk) {
   state_->Find(id).T_world_chunk = T_world_chunk;
 }
 
-void Renderer::RemoveChunk(ChunkId id) {
-  state_->Find(id);
-  state_->chunks_.erase(id);
-}
+void Renderer::RemoveChunk(ChunkId id) { state_->Remove(id); }
 
-std::size_t Renderer::num_points() const {
-  std::size_t count = 0;
-  for (const auto& [id, chunk] : state_->chunks_) count += chunk.num_points;
-  return count;
-}
+std::size_t Renderer::num_points() const { return state_->num_points(); }
 
 void Renderer::Draw(const ViewCamera& camera,
                     const DrawList& list,

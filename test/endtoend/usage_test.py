@@ -65,6 +65,12 @@ class UsageTest(EndToEndTest):
             with self.subTest(word=word):
                 self.assert_usage_error(run("rgbd_tum", *arguments), "rgbd_tum", word, "--help")
 
+    @unittest.skipIf((BIN / "view_map").exists(), "built with a viewer")
+    def test_without_the_viewer_its_options_are_an_error_of_one_line(self):
+        for option in ["--viewer", "--viewer-stays"]:
+            with self.subTest(option):
+                self.assert_refused(self.map(option), "built without it", "libglfw3-dev")
+
     def test_saved_detections_need_a_detector_and_a_folder_of_their_own(self):
         four = [VOCABULARY, CLIP / "settings.yaml", CLIP, CLIP / "associations.txt"]
         for arguments, word in [

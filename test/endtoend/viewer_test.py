@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the semslam authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The windows of view_map and --viewer on a screen in memory.
-
-SEMSLAM_VIEWER_RUNS sets how many runs have their window closed at a random time.
-"""
+"""The windows of view_map and --viewer on a screen in memory."""
+import array
+import math
 import os
-import random
 import signal
 import subprocess
 import sys
@@ -17,8 +15,17 @@ import harness
 import xserver
 from harness import BIN, CLIP, FILES, EndToEndTest, complaints
 
-NUM_RUNS = int(os.environ.get("SEMSLAM_VIEWER_RUNS", "5"))
 LIMIT = 240  # Seconds, of one run with a window drawn in software.
+
+
+def write_waves(path, side):
+    """A surface of side x side points, 1 cm apart."""
+    heights = [math.sin(i / 50) for i in range(side)]
+    values = array.array("f", (value for i in range(side) for j in range(side)
+                               for value in (0.01 * i, 0.01 * j, heights[i] * heights[j])))
+    path.write_bytes(f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\n"
+                     "property float x\nproperty float y\nproperty float z\n"
+                     "end_header\n".encode() + values.tobytes())
 
 
 class ViewerTest(EndToEndTest):
@@ -60,17 +67,6 @@ class ViewerTest(EndToEndTest):
         self.assert_finished_well(process)
         self.assertEqual(self.screen.windows(), [])
 
-    def test_a_window_closed_at_any_time_does_not_touch_the_run(self):
-        chance = random.Random(1)
-        for i in range(NUM_RUNS):
-            process = self.start_run("--viewer")
-            window = self.screen.wait_for_window(process)
-            time.sleep(chance.uniform(0, 2.5))
-            if window is not None and window in self.screen.windows():
-                self.screen.close_window(window)
-            with self.subTest(i):
-                self.assert_finished_well(process)
-
     def test_a_window_that_stays_is_closed_by_the_user(self):
         process = self.start_run("--viewer-stays")
         window = self.screen.wait_for_window(process)
@@ -83,22 +79,6 @@ class ViewerTest(EndToEndTest):
         self.screen.close_window(window)
         self.finish(process)
         self.assertEqual(process.returncode, 0, process.err)
-
-    def test_an_interrupt_ends_run_and_window(self):
-        for wait in [0.0, 1.5]:
-            process = self.start_run("--viewer-stays", "--realtime")
-            window = self.screen.wait_for_window(process)
-            time.sleep(wait)
-            process.send_signal(signal.SIGINT)
-            self.screen.close_window(window)  # At once.
-            with self.subTest(wait):
-                self.finish(process)
-                # Or it was before the first frame.
-                if process.returncode != 1:
-                    self.assertIn(process.returncode, (0, 2), process.err)
-                    self.assertEqual(sorted(p.name for p in self.output.iterdir()), FILES)
-                else:
-                    self.assertIn("interrupted before the first frame", process.err)
 
     def test_without_a_screen_the_run_goes_on_and_says_so(self):
         environment = {name: value for name, value in os.environ.items()
@@ -120,7 +100,7 @@ class ViewerTest(EndToEndTest):
         self.assert_finished_well(process)
         self.assertEqual(clouds(), without)
 
-    def test_a_map_is_shown_until_its_window_is_closed(self):
+    def test_a_map_is_shown_until_its_window_is_closed_or_an_interrupt(self):
         self.assert_finished_well(self.start_run())
         process = self.start("view_map", self.output, "--color", "classes")
         window = self.screen.wait_for_window(process)
@@ -129,14 +109,26 @@ class ViewerTest(EndToEndTest):
         self.screen.close_window(window)
         self.assertEqual(self.finish(process), [])
         self.assertEqual(process.returncode, 0)
-
-    def test_a_map_is_shown_until_an_interrupt(self):
-        self.assert_finished_well(self.start_run())
         process = self.start("view_map", self.output)
         self.screen.wait_for_window(process)
         process.send_signal(signal.SIGINT)
         self.finish(process)
         self.assertEqual(process.returncode, 0, process.err)
+
+    def test_a_million_points_are_seen_within_two_seconds(self):
+        cloud = self.folder / "cloud.ply"
+        write_waves(cloud, 1000)
+        times = [math.inf]
+        while len(times) < 4 and times[-1] >= 2:  # Again if something else took the cores.
+            begin = time.monotonic()
+            process = self.start("view_map", cloud, "--color", "height")
+            window = self.screen.wait_for_window(process)
+            self.assertGreater(self.screen.wait_for_colors(40, top=400, bottom=420), 40)
+            times.append(time.monotonic() - begin)
+            self.screen.close_window(window)
+            self.assertEqual(self.finish(process), [])
+        print(f"1 million points: first picture after {min(times):.2f} s")
+        self.assertLess(min(times), 2)
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@ import time
 XVFB = shutil.which("Xvfb")
 X11 = ctypes.util.find_library("X11")
 XTST = ctypes.util.find_library("Xtst")
-MISSING = [name for name, found in [("Xvfb", XVFB), ("libX11", X11)] if not found]
-WIDTH, HEIGHT = 1280, 800
+MISSING = [name for name, found in [("Xvfb", XVFB), ("libX11", X11), ("libXtst", XTST)]
+           if not found]
+PICTURE = 0.5  # Seconds; a window drawn in software on a busy machine shows a picture in that time.
+ERROR_HANDLER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
 
 
 class ClientMessage(ctypes.Structure):
@@ -30,11 +32,12 @@ class ClientMessage(ctypes.Structure):
 class Screen:
     """A screen of its own; close() ends it. One at a time."""
 
-    def __init__(self):
+    def __init__(self, width=1280, height=800):
+        self.width, self.height = width, height
         self.folder = tempfile.mkdtemp()
         reader, writer = os.pipe()
         self.server = subprocess.Popen(
-            [XVFB, "-displayfd", str(writer), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir",
+            [XVFB, "-displayfd", str(writer), "-screen", "0", f"{width}x{height}x24", "-fbdir",
              self.folder, "-nolisten", "tcp"], pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as numbers:
@@ -42,7 +45,9 @@ class Screen:
         if not number:
             raise RuntimeError("Xvfb did not start")
         self.name = f":{number}"
-        self.x11 = ctypes.CDLL(X11)
+        self.x11, self.tester = ctypes.CDLL(X11), ctypes.CDLL(XTST)
+        self.ignore = ERROR_HANDLER(lambda display, error: 0)
+        self.x11.XSetErrorHandler(self.ignore)  # A window may go before it is closed.
         self.x11.XOpenDisplay.restype = ctypes.c_void_p
         self.display = ctypes.c_void_p(self.x11.XOpenDisplay(self.name.encode()))
         self.x11.XDefaultRootWindow.restype = ctypes.c_ulong
@@ -87,16 +92,22 @@ class Screen:
                             ctypes.byref(event))
         self.x11.XFlush(self.display)
 
-    def click(self, x, y):
-        """Moves the mouse there and presses its left button."""
-        tester = ctypes.CDLL(XTST)
-        tester.XTestFakeMotionEvent(self.display, 0, x, y, ctypes.c_ulong(0))
+    def move(self, x, y):
+        """Moves the mouse there."""
+        self.tester.XTestFakeMotionEvent(self.display, 0, x, y, ctypes.c_ulong(0))
         self.x11.XFlush(self.display)
-        time.sleep(0.3)  # Programs look at the mouse now and then.
-        for is_down in (1, 0):
-            tester.XTestFakeButtonEvent(self.display, 1, is_down, ctypes.c_ulong(0))
-            self.x11.XFlush(self.display)
-            time.sleep(0.3)
+
+    def press(self, button, is_down):
+        """A button of the mouse: 1 left, 3 right, 4 the wheel forward."""
+        self.tester.XTestFakeButtonEvent(self.display, button, is_down, ctypes.c_ulong(0))
+        self.x11.XFlush(self.display)
+
+    def click(self, x, y, button=1):
+        """Moves the mouse there and presses a button."""
+        self.move(x, y)
+        time.sleep(0.1)
+        self.press(button, True)
+        self.press(button, False)
 
     def pixels(self):
         """The screen as rows of bytes: blue, green, red, unused."""
@@ -104,22 +115,23 @@ class Screen:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
             header = struct.unpack(">25I", data[:100])
             start = header[0] + 12 * header[19]
-            return [data[start + row * header[12]:start + row * header[12] + 4 * WIDTH]
-                    for row in range(HEIGHT)]
+            return [data[start + row * header[12]:start + row * header[12] + 4 * self.width]
+                    for row in range(self.height)]
 
-    def num_colors(self, left=0, right=WIDTH):
-        """Among every third pixel between two columns."""
-        return len({row[i:i + 3] for row in self.pixels()[::3]
+    def num_colors(self, left=0, right=None, top=0, bottom=None):
+        """Among every third pixel of a part."""
+        right = right or self.width
+        return len({row[i:i + 3] for row in self.pixels()[top:bottom:3]
                     for i in range(4 * left, 4 * right, 12)})
 
-    def wait_for_colors(self, least, seconds=60, **columns):
+    def wait_for_colors(self, least, seconds=60, **part):
         """Until so many different ones are shown; how many there were at last."""
         end = time.monotonic() + seconds
         while True:
-            count = self.num_colors(**columns)
+            count = self.num_colors(**part)
             if count >= least or time.monotonic() > end:
                 return count
-            time.sleep(0.1)
+            time.sleep(0.05)
 
     def close(self):
         self.x11.XCloseDisplay(self.display)
