@@ -34,13 +34,22 @@ constexpr std::size_t kLeastFrames = 5;
 
 class RecordingTest : public ::testing::Test {
  protected:
-  void Record(VirtualCamera& camera) const {
+  // All but one begin with the same recording.
+  static void SetUpTestSuite() {
+    VirtualCamera camera("");
+    const TemporaryFolder folder;
     OpenNi2Source::Options options = camera.Options();
-    options.recording = path_;
+    options.recording = folder.path() / "clip.oni";
     options.duration = FromSeconds(kNumFrames / 30.0);
-    OpenNi2Source source(options);
-    Read(source);
+    {
+      OpenNi2Source source(options);
+      Read(source);
+    }
+    recording_ = testing::ReadAll(options.recording);
   }
+  static void TearDownTestSuite() { recording_.clear(); }
+
+  const std::string& recording() const { return recording_; }
 
   OpenNi2Source::Options PlayOptions(VirtualCamera& camera) const {
     OpenNi2Source::Options options = camera.Options();
@@ -49,12 +58,14 @@ class RecordingTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::filesystem::path path_ = folder_.path() / "clip.oni";
+  std::filesystem::path path_ = folder_.Write("clip.oni", recording_);
+
+ private:
+  static inline std::string recording_;
 };
 
 TEST_F(RecordingTest, IsPlayedToTheBitAndToItsEnd) {
   VirtualCamera camera("");
-  Record(camera);
   OpenNi2Source source(PlayOptions(camera));
   const std::vector<RgbdImage> images = Read(source);
   EXPECT_FALSE(source.failure());
@@ -66,7 +77,6 @@ TEST_F(RecordingTest, IsPlayedToTheBitAndToItsEnd) {
 
 TEST_F(RecordingTest, IsPlayedInItsOwnTimeIfAsked) {
   VirtualCamera camera("");
-  Record(camera);
   OpenNi2Source::Options options = PlayOptions(camera);
   options.play_in_real_time = true;
   OpenNi2Source source(options);
@@ -106,7 +116,6 @@ void ExpectPlayedAsFarAsItGoes(VirtualCamera& camera, const OpenNi2Source::Optio
 
 TEST_F(RecordingTest, IsPlayedAsFarAsItGoesIfItWasCutShort) {
   VirtualCamera camera("");
-  Record(camera);
   // OpenNI2 fills the second half with zeros.
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 3);
   const TemporaryFolder copies;
@@ -123,7 +132,8 @@ TEST_F(RecordingTest, IsPlayedAsFarAsItGoesIfItNeverEnded) {
   {
     OpenNi2Source source(options);
     Read(source, kNumFrames);
-    std::filesystem::copy_file(options.recording, path_);
+    std::filesystem::copy_file(options.recording, path_,
+                               std::filesystem::copy_options::overwrite_existing);
   }
   ExpectPlayedAsFarAsItGoes(camera, PlayOptions(camera));
 }
@@ -140,8 +150,7 @@ std::size_t PositionOfDepth(const std::string& recording) {
 
 TEST_F(RecordingTest, LeavesOutDamagedImagesAndSaysHowMany) {
   VirtualCamera camera("");
-  Record(camera);
-  std::string content = testing::ReadAll(path_);
+  std::string content = recording();
   // More than an image of each kind takes.
   content.replace(PositionOfDepth(content), 100'000, 100'000, '\0');
   folder_.Write("clip.oni", content);
@@ -155,8 +164,7 @@ TEST_F(RecordingTest, LeavesOutDamagedImagesAndSaysHowMany) {
 
 TEST_F(RecordingTest, LeavesOutAnImageThatIsTooShort) {
   VirtualCamera camera("");
-  Record(camera);
-  std::string content = testing::ReadAll(path_);
+  std::string content = recording();
   content.replace(PositionOfDepth(content) + 1000, 1000, 1000, '\xff');
   folder_.Write("clip.oni", content);
   OpenNi2Source source(PlayOptions(camera));
@@ -167,7 +175,6 @@ TEST_F(RecordingTest, LeavesOutAnImageThatIsTooShort) {
 
 TEST_F(RecordingTest, OfAnotherSizeIsRefused) {
   VirtualCamera camera("");
-  Record(camera);
   OpenNi2Source::Options options = PlayOptions(camera);
   options.width = 640;
   options.height = 480;
@@ -177,7 +184,6 @@ TEST_F(RecordingTest, OfAnotherSizeIsRefused) {
 
 TEST_F(RecordingTest, IsRefusedIfNothingIsLeftOfIt) {
   VirtualCamera camera("");
-  Record(camera);
   std::filesystem::resize_file(path_, 50);
   EXPECT_THAT(InputErrorOf([&] { OpenNi2Source source(PlayOptions(camera)); }),
               HasSubstr("nothing of its streams is left"));
