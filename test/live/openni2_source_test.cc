@@ -205,7 +205,7 @@ TEST_P(OpenNi2SourceFault, ThatLastsTooLongEndsItWithAReason) {
   OpenNi2Source::Options options = camera.Options();
   options.patience_seconds = 0.5;
   OpenNi2Source source(options);
-  EXPECT_GT(Read(source, 1000).size(), 5u);
+  EXPECT_GE(Read(source, 1000).size(), 1u);
   EXPECT_THAT(source.failure().value_or(""), HasSubstr("did not come back within 0.5 s"));
   EXPECT_THAT(camera.messages(), ElementsAre(HasSubstr(GetParam().message)));
 }

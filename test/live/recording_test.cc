@@ -131,7 +131,11 @@ TEST_F(RecordingTest, IsPlayedAsFarAsItGoesIfItNeverEnded) {
   options.recording = folder_.path() / "running.oni";
   {
     OpenNi2Source source(options);
-    Read(source, kNumFrames);
+    // Half of the whole one, whose other half OpenNI2 fills with zeros.
+    do {
+      ASSERT_TRUE(source.Next());
+    } while (!std::filesystem::exists(options.recording) ||
+             std::filesystem::file_size(options.recording) < recording().size() / 4);
     std::filesystem::copy_file(options.recording, path_,
                                std::filesystem::copy_options::overwrite_existing);
   }
