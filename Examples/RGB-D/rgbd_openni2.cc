@@ -76,7 +76,8 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
                     "Play a recording at its own speed, as a camera; default: as fast as it can");
   app.footer(
       "Exit codes: 0 done; 1 bad input, no camera or usage; 2 done, but tracking was lost for more "
-      "than 5 % of the frames; 3 the camera was lost, what was mapped is written.");
+      "than 5 % of the frames; 3 the camera was lost, or the recording broke off: what was mapped "
+      "is written.");
 }
 
 semslam::OpenNi2Source::Options SourceOptions(const Arguments& arguments,

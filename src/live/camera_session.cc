@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <vector>
@@ -13,6 +12,7 @@
 
 #include "semslam/base/error.h"
 #include "semslam/base/guarded.h"
+#include "semslam/base/pause.h"
 #include "semslam/base/stopwatch.h"
 #include "semslam/live/device_list.h"
 
@@ -57,24 +57,6 @@ std::string ChooseCamera(const std::string& wanted) {
   throw InputError(wanted + ": no such camera; found " + found);
 }
 
-bool Contains(const std::string& text, const std::string& part) {
-  const auto same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
-  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
-}
-
-// The next step for one whose camera is there but cannot be opened.
-std::string Advice(const std::string& reason) {
-  if (Contains(reason, "busy") || Contains(reason, "in use") || Contains(reason, "exclusive"))
-    return "another program has it: end that one first";
-  if (Contains(reason, "permission") || Contains(reason, "denied") || Contains(reason, "access")) {
-    return "you may not use it: a udev rule gives the right (package libopenni2-0 brings one), "
-           "then "
-           "plug the camera in again";
-  }
-  return "another program may have it, or you may lack the right to use it (udev rule); plugging "
-         "it in again often helps";
-}
-
 class DisconnectListener : public openni::OpenNI::DeviceDisconnectedListener {
  public:
   DisconnectListener() { openni::OpenNI::addDeviceDisconnectedListener(this); }
@@ -104,12 +86,17 @@ struct CameraSession::Streams {
   OpenNiContext context;
   DisconnectListener disconnects;
   openni::Device device;
+  Stopwatch since_open;
   openni::VideoStream color;
   openni::VideoStream depth;
   std::array<Arrivals, 2> arrivals;  // After the streams they watch; by kind.
   openni::Recorder recorder;
-  std::array<int, 2> num_frames{};  // Of a recording, by kind.
+  // By kind:
+  std::array<int, 2> num_frames{};  // Of a recording; kUnknown if it has no end.
   std::array<int, 2> last_index{};  // Of the images that were read.
+  std::array<std::optional<openni::PixelFormat>, 2> formats;  // Of the first image.
+
+  static constexpr int kUnknown = -1;  // As OpenNI2 says.
 
   ~Streams() {
     recorder.destroy();
@@ -118,6 +105,9 @@ struct CameraSession::Streams {
     depth.stop();
     color.destroy();
     depth.destroy();
+    // The file driver's thread, if closed before it runs, is waited for, 3 s, and killed.
+    constexpr double kThreadRuns = 0.1;  // Seconds.
+    if (is_file && since_open.Seconds() < kThreadRuns) Pause(kThreadRuns - since_open.Seconds());
     device.close();
   }
 
@@ -132,8 +122,9 @@ struct CameraSession::Streams {
   void Configure(const Notice& notice);
   void Register(const Notice& notice);
   void Start();
-  void SetPlayback();
-  void CheckSize(StreamKind kind, const openni::VideoFrameRef& frame) const;
+  void SetPlayback(const Notice& notice);
+  bool HasNoEnd() const { return std::count(num_frames.begin(), num_frames.end(), kUnknown) > 0; }
+  void CheckMode(StreamKind kind, const openni::VideoFrameRef& frame);
 };
 
 void CameraSession::Streams::Open(const std::string& wanted) {
@@ -142,9 +133,16 @@ void CameraSession::Streams::Open(const std::string& wanted) {
   const std::string uri = is_file ? wanted : ChooseCamera(wanted);
   if (device.open(uri.c_str()) != STATUS_OK) {
     const std::string reason = OpenNiReason();
-    throw InputError(uri + ": cannot be opened: " + reason + "; " +
-                     (is_file ? "the recording is damaged, or was cut short" : Advice(reason)));
+    if (!is_file)
+      throw InputError(uri + ": cannot be opened: " + reason + "; " + AdviceFor(reason));
+    // Gone as soon as it is open: nothing is left behind, whatever happens.
+    const UnendedCopy copy(uri);
+    if (device.open(copy.path().c_str()) != STATUS_OK) {
+      throw InputError(uri + ": cannot be opened: " + OpenNiReason() +
+                       "; the recording is damaged, or was cut short");
+    }
   }
+  since_open.Restart();
   identity = ToIdentity(device.getDeviceInfo());
   if (is_file) identity.uri = wanted;
 }
@@ -218,23 +216,29 @@ void CameraSession::Streams::Configure(const Notice& notice) {
                           settings->setAutoWhiteBalanceEnabled(request.auto_exposure) == STATUS_OK;
   if (!is_exposed && !request.auto_exposure)
     notice("exposure and white balance stay as the camera has them: it refused to fix them");
-  if (device.setDepthColorSyncEnabled(true) != STATUS_OK)
-    notice("colour and depth are not taken at the same time: the nearest ones are paired");
+  device.setDepthColorSyncEnabled(true);  // What it says of success is not so: times show it.
 }
 
-void CameraSession::Streams::SetPlayback() {
+void CameraSession::Streams::SetPlayback(const Notice& notice) {
   openni::PlaybackControl* const playback = device.getPlaybackControl();
   if (playback == nullptr) throw InputError(Label() + ": expected a recording that can be played");
   playback->setRepeatEnabled(false);
   constexpr float kWhenAsked = -1;
   playback->setSpeed(request.play_in_real_time ? 1 : kWhenAsked);
   for (const StreamKind kind : {StreamKind::kColor, StreamKind::kDepth}) {
+    const openni::VideoMode mode = Get(kind).getVideoMode();
+    if (mode.getResolutionX() != request.width || mode.getResolutionY() != request.height) {
+      throw InputError(Label() + ": expected " + Name(kind) + " images of " +
+                       std::to_string(request.width) + "x" + std::to_string(request.height) +
+                       " as the settings say, the recording has " + Describe(ToMode(mode)));
+    }
     const int count = playback->getNumberOfFrames(Get(kind));
-    if (count <= 0)
+    if (count <= 0 && count != kUnknown)
       throw InputError(Label() + ": expected " + Name(kind) +
                        " images in the recording, found none");
     num_frames[static_cast<std::size_t>(kind)] = count;
   }
+  if (HasNoEnd()) notice("the recording was cut short, or never ended: what it has is played");
 }
 
 void CameraSession::Streams::Start() {
@@ -251,12 +255,13 @@ CameraSession::CameraSession(const std::string& device,
                              const CameraRequest& request,
                              const Notice& notice)
     : streams_(std::make_unique<Streams>()) {
+  const SmallStacks small_stacks;
   streams_->request = request;
   streams_->Open(device);
   streams_->Create(StreamKind::kDepth, notice);
   streams_->Create(StreamKind::kColor, notice);
   if (streams_->is_file) {
-    streams_->SetPlayback();
+    streams_->SetPlayback(notice);
   } else {
     streams_->Configure(notice);
   }
@@ -265,11 +270,19 @@ CameraSession::CameraSession(const std::string& device,
 
 CameraSession::~CameraSession() = default;
 
-void CameraSession::Streams::CheckSize(StreamKind kind, const openni::VideoFrameRef& frame) const {
-  if (frame.getWidth() == request.width && frame.getHeight() == request.height) return;
+// Of the size that was asked for, and in the format of the first one.
+void CameraSession::Streams::CheckMode(StreamKind kind, const openni::VideoFrameRef& frame) {
+  const openni::PixelFormat format = frame.getVideoMode().getPixelFormat();
+  std::optional<openni::PixelFormat>& first_format = formats[static_cast<std::size_t>(kind)];
+  if (!first_format) first_format = format;
+  const bool is_size = frame.getWidth() == request.width && frame.getHeight() == request.height;
+  if (is_size && format == *first_format) return;
+  openni::VideoMode expected = frame.getVideoMode();
+  expected.setResolution(request.width, request.height);
+  expected.setPixelFormat(*first_format);
   throw InputError(std::string("expected ") + Name(kind) + " images of " +
-                   std::to_string(request.width) + "x" + std::to_string(request.height) +
-                   ", found " + Describe(ToMode(frame.getVideoMode())));
+                   Describe(ToMode(expected)) + ", found " +
+                   Describe(ToMode(frame.getVideoMode())));
 }
 
 std::optional<CameraSession::Arrival> CameraSession::Wait(std::chrono::milliseconds timeout) {
@@ -283,23 +296,30 @@ std::optional<CameraSession::Arrival> CameraSession::Wait(std::chrono::milliseco
       both.data(), static_cast<int>(both.size()), &ready, static_cast<int>(timeout.count()));
   if (status == openni::STATUS_TIME_OUT) return std::nullopt;
   constexpr double kWaited = 0.001;  // Seconds; then the image came while we waited for it.
-  const bool was_there = waiting.Seconds() < kWaited && !streams.IsReadWhenAsked();
+  const bool is_live = !streams.IsReadWhenAsked();
+  const bool was_there = is_live && waiting.Seconds() < kWaited;
   openni::VideoFrameRef frame;
   if (status != STATUS_OK || ready < 0 ||
       both[static_cast<std::size_t>(ready)]->readFrame(&frame) != STATUS_OK || !frame.isValid())
     throw InputError("no images can be read: " + OpenNiReason());
   Arrival arrival;
   arrival.kind = ready == 0 ? StreamKind::kColor : StreamKind::kDepth;
-  streams.CheckSize(arrival.kind, frame);
+  streams.CheckMode(arrival.kind, frame);
   if (was_there) arrival.age = streams.ArrivalsOf(arrival.kind).SecondsSinceLast();
+  arrival.image.time_us = static_cast<std::int64_t>(frame.getTimestamp());
+  try {
+    arrival.image.image = arrival.kind == StreamKind::kColor
+                              ? ToColor(frame, streams.request.is_rgb)
+                              : ToDepth(frame);
+  } catch (const InputError&) {
+    if (is_live) throw;
+    return std::nullopt;  // Of a recording the next one counts it as missing.
+  }
   int& last_index = streams.last_index[static_cast<std::size_t>(arrival.kind)];
   const int num_skipped = frame.getFrameIndex() - last_index - 1;
-  if (was_there && last_index > 0 && num_skipped > 0)
-    arrival.num_missed = static_cast<std::size_t>(num_skipped);
+  const bool could_come = is_live ? was_there && last_index > 0 : true;
+  if (could_come && num_skipped > 0) arrival.num_missed = static_cast<std::size_t>(num_skipped);
   last_index = frame.getFrameIndex();
-  arrival.image.time_us = static_cast<std::int64_t>(frame.getTimestamp());
-  arrival.image.image =
-      arrival.kind == StreamKind::kColor ? ToColor(frame, streams.request.is_rgb) : ToDepth(frame);
   return arrival;
 }
 
@@ -307,6 +327,7 @@ void CameraSession::StartRecording(const std::filesystem::path& path) {
   // A recorder that cannot have its file crashes when it ends.
   if (!std::ofstream(path, std::ios::binary))
     throw InputError(path.string() + ": cannot be recorded to: the file cannot be made");
+  const SmallStacks small_stacks;
   openni::Recorder& recorder = streams_->recorder;
   const bool is_started =
       recorder.create(path.c_str()) == STATUS_OK && recorder.attach(streams_->depth) == STATUS_OK &&
@@ -319,13 +340,13 @@ const CameraIdentity& CameraSession::identity() const { return streams_->identit
 bool CameraSession::is_file() const { return streams_->is_file; }
 
 std::optional<std::size_t> CameraSession::NumFrames() const {
-  if (!streams_->is_file) return std::nullopt;
+  if (!streams_->is_file || streams_->HasNoEnd()) return std::nullopt;
   return static_cast<std::size_t>(
       *std::min_element(streams_->num_frames.begin(), streams_->num_frames.end()));
 }
 
 bool CameraSession::is_at_end() const {
-  if (!streams_->is_file) return false;
+  if (!streams_->is_file || streams_->HasNoEnd()) return false;
   for (std::size_t i = 0; i < streams_->num_frames.size(); ++i) {
     if (streams_->last_index[i] < streams_->num_frames[i]) return false;
   }

@@ -45,8 +45,9 @@ class CameraSession {
   struct Arrival {
     StreamKind kind = StreamKind::kColor;
     StreamImage image;
-    double age = 0;              // Seconds since it came.
-    std::size_t num_missed = 0;  // Images of the stream before it that were not read in time.
+    double age = 0;  // Seconds since it came.
+    // Images of the stream before it that were not read in time, or cannot be read.
+    std::size_t num_missed = 0;
   };
 
   // `device`: URI or path; empty: the first camera. Throws InputError that says what to do.
@@ -63,9 +64,9 @@ class CameraSession {
 
   const CameraIdentity& identity() const;
   bool is_file() const;
-  // Of a recording: images of the shorter stream.
+  // Of a recording: images of the shorter stream; nothing if it has no end that says so.
   std::optional<std::size_t> NumFrames() const;
-  // Of a recording: nothing more will come.
+  // Of a recording: nothing more will come. One without an end just stops sending.
   bool is_at_end() const;
   std::string description() const;
   std::optional<PinholeCamera::Parameters> NominalIntrinsics() const;

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "semslam/base/error.h"
@@ -67,6 +68,14 @@ std::optional<RgbdImage> OpenNi2Source::Reader::Next() {
   return std::nullopt;
 }
 
+void OpenNi2Source::Reader::End() {
+  session_.reset();  // Closes a recording too.
+  if (num_damaged_ == 0) return;
+  Log(LogLevel::kWarning,
+      "the recording is damaged: images that could not be read: " + std::to_string(num_damaged_));
+  num_damaged_ = 0;
+}
+
 OpenNi2Source::Statistics OpenNi2Source::Reader::statistics() const {
   Statistics statistics = statistics_;
   statistics.num_unpaired = pairer_.num_unpaired();
@@ -92,7 +101,11 @@ std::optional<RgbdImage> OpenNi2Source::Reader::Step() {
   double age = 0;
   if (arrival) {
     watch_.OnImage(arrival->kind, waited_);
-    if (arrival->kind == StreamKind::kColor) statistics_.num_dropped += arrival->num_missed;
+    if (is_file_ && !options_.play_in_real_time) {
+      num_damaged_ += arrival->num_missed;
+    } else if (arrival->kind == StreamKind::kColor) {
+      statistics_.num_dropped += arrival->num_missed;
+    }
     age = arrival->age;
     pair = pairer_.Add(arrival->kind, std::move(arrival->image));
   }
@@ -105,6 +118,8 @@ std::optional<RgbdImage> OpenNi2Source::Reader::Step() {
 }
 
 RgbdImage OpenNi2Source::Reader::Join(ImagePair pair, double age) {
+  ++statistics_.num_pairs;
+  if (!is_file_) LookAtTimes(pair);
   age_ = age;
   since_read_.Restart();
   RgbdImage image;
@@ -118,9 +133,22 @@ RgbdImage OpenNi2Source::Reader::Join(ImagePair pair, double age) {
     ++statistics_.num_interruptions;
     interruption_.reset();
   }
-  ++statistics_.num_pairs;
   if (!options_.recording.empty() && !is_recording_) StartRecording();
   return image;
+}
+
+void OpenNi2Source::Reader::LookAtTimes(const ImagePair& pair) {
+  constexpr std::size_t kNumPairs = 15;
+  constexpr double kSameTime = 0.1;  // Of the time between frames.
+  if (statistics_.num_pairs > kNumPairs) return;
+  times_apart_us_ += std::abs(pair.color.time_us - pair.depth.time_us);
+  if (statistics_.num_pairs < kNumPairs) return;
+  const double apart = 1e-6 * static_cast<double>(times_apart_us_) / kNumPairs;
+  if (apart < kSameTime / options_.fps) return;
+  std::array<char, 32> milliseconds{};
+  std::snprintf(milliseconds.data(), milliseconds.size(), "%.0f ms", 1e3 * apart);
+  Log(LogLevel::kWarning, std::string("colour and depth are not taken at the same time, but ") +
+                              milliseconds.data() + " apart: the nearest ones are paired");
 }
 
 void OpenNi2Source::Reader::StartRecording() {
@@ -136,7 +164,8 @@ void OpenNi2Source::Reader::StartRecording() {
 
 bool OpenNi2Source::Reader::Recover(const std::string& fault) {
   if (is_file_) {
-    failure_ = options_.device + ": the recording is damaged, or was cut short: " + fault;
+    failure_ = options_.device + ": the recording is damaged, or was cut short: after " +
+               std::to_string(statistics_.num_pairs) + " frames " + fault;
     return false;
   }
   if (!interruption_) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,12 +40,14 @@ class OpenNi2Source::Reader {
   // Waits a little for an image. A pair, if one is complete. Throws InputError at a fault.
   std::optional<RgbdImage> Step();
   RgbdImage Join(ImagePair pair, double age);
+  // Tells, once, if the camera does not take colour and depth at the same time.
+  void LookAtTimes(const ImagePair& pair);
   void StartRecording();
   // Opens the camera again. False if that did not work in time, or was stopped.
   bool Recover(const std::string& fault);
   bool TryToOpenAgain(std::string* problem);
   bool IsStopped() const;
-  void End() { session_.reset(); }  // Closes a recording too.
+  void End();
   void Log(LogLevel level, const std::string& message) const;
 
   const Options options_;
@@ -56,6 +60,7 @@ class OpenNi2Source::Reader {
   std::optional<PinholeCamera::Parameters> nominal_intrinsics_;
 
   FramePairer pairer_;
+  std::int64_t times_apart_us_ = 0;  // Sum over the first pairs.
   DeviceClock clock_;
   StreamWatch watch_;
   double waited_ = 0;  // Seconds in all: the clock of watch_. A stall is one that we wait through.
@@ -64,7 +69,8 @@ class OpenNi2Source::Reader {
   std::optional<Stopwatch> interruption_;
   bool is_recording_ = false;
   int num_recordings_ = 0;
-  double age_ = 0;  // Of the newest pair when it was read, seconds.
+  std::size_t num_damaged_ = 0;  // Images of a recording.
+  double age_ = 0;               // Of the newest pair when it was read, seconds.
   Stopwatch since_read_;
   Statistics statistics_;
   std::optional<std::string> failure_;

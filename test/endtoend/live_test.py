@@ -6,16 +6,21 @@ that plays a clip in real time and has faults by a script.
 CMake gives the folder of that OpenNI2 in SEMSLAM_OPENNI2.
 """
 import concurrent.futures
+import fcntl
 import os
+import pty
 import re
-import shutil
+import select
 import signal
+import struct
 import subprocess
+import termios
 import time
 import unittest
 
 import formats
 import harness
+import xserver
 from harness import CLIP, FILES, EndToEndTest, images, run
 
 FPS = 30
@@ -154,6 +159,11 @@ class MappingTest(LiveTest):
         keyframes = formats.read_trajectory(self.output / "KeyFrameTrajectory.txt")
         self.assertEqual(
             formats.read_trajectory(self.folder / "found" / "KeyFrameTrajectory.txt"), keyframes)
+        gone_on = self.live("--load-map", saved, "--duration", 0.5, output=self.folder / "gone_on")
+        self.assert_success(gone_on)
+        more = formats.read_trajectory(self.folder / "gone_on" / "KeyFrameTrajectory.txt")
+        self.assertEqual(more[:1], keyframes[:1])
+        self.assertGreaterEqual(len(more), len(keyframes))
 
 
 class FaultTest(LiveTest):
@@ -164,7 +174,7 @@ class FaultTest(LiveTest):
         "stall 1 1.5": "camera: no images for ",
         "no_color 1 1.5": "camera: no colour images for ",
         "no_depth 1 1.5": "camera: no depth images for ",
-        "format 1 0.7": "camera: expected colour images of 640x480, found 320x240",
+        "format 1 0.7": "camera: expected colour images of 640x480, 30/s, RGB888, found 320x240",
     }
 
     def run_fault(self, fault, *options):
@@ -176,7 +186,8 @@ class FaultTest(LiveTest):
     def test_each_fault_is_survived(self):
         with concurrent.futures.ThreadPoolExecutor() as pool:
             runs = pool.map(
-                lambda fault: self.run_fault(fault, "--duration", 3.2, "--reconnect", 10),
+                lambda fault: self.run_fault(fault, "--duration", 3.2, "--reconnect", 10,
+                                             "--save-map", self.folder / f"{fault}.map"),
                 self.FAULTS)
         for (fault, message), (output, result) in zip(self.FAULTS.items(), runs):
             with self.subTest(fault=fault):
@@ -185,6 +196,9 @@ class FaultTest(LiveTest):
                 self.assertIn("camera: images come again after", result.stderr)
                 poses = self.assert_whole_files(output)
                 self.assertGreater(poses[-1][0] - poses[0][0], 1.5)
+                # In one frame of reference: so the place was found again.
+                self.assertLess(min(self.error(first, output) for first in range(10)), 0.02)
+                self.assertGreater((self.folder / f"{fault}.map").stat().st_size, 10000)
 
     def test_a_camera_that_stays_away_ends_the_run_with_files_and_exit_code_3(self):
         output, result = self.run_fault("unplug 1 100", "--reconnect", 0.5, "--record",
@@ -192,8 +206,15 @@ class FaultTest(LiveTest):
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("rgbd_openni2: the camera did not come back within 0.5 s", result.stderr)
         self.assertGreater(len(self.assert_whole_files(output)), 5)
-        # What was recorded before can be played.
-        self.assert_success(self.live("--device", self.folder / "clip.oni"))
+        # What was recorded before can be played, and what is left of it if it is cut short.
+        recording = self.folder / "clip.oni"
+        self.assert_success(self.live("--device", recording))
+        os.truncate(recording, recording.stat().st_size // 3)
+        cut = self.folder / "cut"
+        result = self.live("--device", recording, output=cut)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertRegex(result.stderr, r"rgbd_openni2: .*clip.oni: the recording .* was cut short")
+        self.assertGreater(len(self.assert_whole_files(cut)), 5)
 
     def interrupt(self, fault, message):
         """Once some frames came, and, with a fault, once it was told."""
@@ -223,6 +244,66 @@ class FaultTest(LiveTest):
                 self.assertGreater(len(self.assert_whole_files(output)), 5)
 
 
+class TerminalTest(LiveTest):
+
+    PROGRESS = r"frame \d+  [\d.]+/s  \d+ dropped  \d+/\d+ ms late  tracking  \d+ keyframes"
+
+    def setUp(self):
+        super().setUp()
+        self.master, slave = pty.openpty()
+        self.addCleanup(os.close, self.master)
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 200, 0, 0))
+        self.slave = slave
+        self.text = ""
+
+    def start(self, *options, environment):
+        process = subprocess.Popen(
+            [harness.BIN / "rgbd_openni2", *map(str, self.arguments(*options))],
+            env={**self.environment(), **environment}, text=True, stdout=subprocess.PIPE,
+            stderr=self.slave)
+        os.close(self.slave)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def read(self, until=None):
+        """What the terminal shows, up to a match or to the end."""
+        end = time.monotonic() + harness.TIMEOUT
+        while until is None or not re.search(until, self.text):
+            ready, _, _ = select.select([self.master], [], [], max(0, end - time.monotonic()))
+            self.assertTrue(ready, self.text)
+            try:
+                self.text += os.read(self.master, 4096).decode()
+            except OSError:  # The program has closed its end.
+                break
+
+    def finish(self, process):
+        process.send_signal(signal.SIGINT)
+        self.read()
+        summary, _ = process.communicate(timeout=harness.TIMEOUT)
+        self.assertIn(process.returncode, [0, 2], self.text)
+        self.assertIn("(interrupted)", summary)
+        self.assert_whole_files()
+
+    def test_progress_tells_rate_drops_lateness_and_state(self):
+        process = self.start(environment={})
+        self.read(until=self.PROGRESS)
+        self.finish(process)
+        self.assertRegex(self.text, self.PROGRESS)
+
+    @unittest.skipIf(not (harness.BIN / "view_map").exists() or (
+        xserver.MISSING and "SEMSLAM_REQUIRE_VIEWER" not in os.environ), "no viewer or screen")
+    def test_a_window_shows_the_camera_until_an_interrupt(self):
+        screen = xserver.Screen()
+        self.addCleanup(screen.close)
+        process = self.start("--viewer", "--device", "clip@1", environment={"DISPLAY": screen.name})
+        self.assertIsNotNone(screen.wait_for_window(process))
+        self.assertGreater(screen.wait_for_colors(300, left=400, right=900), 300)
+        self.finish(process)
+        self.assertEqual(screen.windows(), [])
+        self.assertNotIn("without a viewer", self.text)
+
+
 class RefusalTest(LiveTest):
 
     def refuse(self, result, *words):
@@ -238,7 +319,7 @@ class RefusalTest(LiveTest):
                     "no camera found")
 
     def test_a_camera_in_use_is_refused_with_the_next_step(self):
-        self.refuse(self.live(script="busy\n"), "Resource busy", "end that one first")
+        self.refuse(self.live(script="locked Resource busy\n"), "Resource busy", "end that one first")
 
     def test_a_camera_that_does_not_register_is_refused_unless_allowed(self):
         self.refuse(self.live(script="refuse registration\n"), "--unregistered")
@@ -247,15 +328,12 @@ class RefusalTest(LiveTest):
         self.assert_success(allowed)
         self.assertIn("depth is not registered", allowed.stderr)
 
-    def test_a_recording_that_is_none_or_cut_short_is_refused(self):
+    def test_a_recording_that_is_none_is_refused(self):
         recording = self.folder / "clip.oni"
         self.refuse(self.live("--device", recording), "clip.oni", "found nothing")
         recording.write_text("not one")
         self.refuse(self.live("--device", recording), "clip.oni", "NI10")
-        self.assert_success(self.live("--duration", 0.3, "--record", recording))
-        shutil.rmtree(self.output)
-        with open(recording, "r+b") as file:
-            file.truncate(recording.stat().st_size // 3)
+        recording.write_text("NI10 and nothing else")
         self.refuse(self.live("--device", recording), "clip.oni", "cut short")
 
     def test_a_place_for_a_recording_that_cannot_be_is_refused(self):

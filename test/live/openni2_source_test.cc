@@ -3,7 +3,12 @@
 #include "semslam/live/openni2_source.h"
 
 #include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -24,18 +29,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::InputErrorOf;
 using ::testing::IsEmpty;
+using testing::Read;
 using testing::VirtualCamera;
-
-// Reads so many frames, or all up to the end.
-std::vector<RgbdImage> Read(OpenNi2Source& source, std::size_t max_frames) {
-  std::vector<RgbdImage> images;
-  while (images.size() < max_frames) {
-    std::optional<RgbdImage> image = source.Next();
-    if (!image) break;
-    images.push_back(*std::move(image));
-  }
-  return images;
-}
 
 TEST(OpenNi2Source, FramesOfACameraComeAtItsRateAndInPairs) {
   VirtualCamera camera("");
@@ -45,25 +40,6 @@ TEST(OpenNi2Source, FramesOfACameraComeAtItsRateAndInPairs) {
   for (std::size_t i = 1; i < images.size(); ++i)
     EXPECT_NEAR(ToSeconds(images[i].time - images[i - 1].time), 1.0 / 30, 1e-4) << i;
   EXPECT_THAT(camera.messages(), IsEmpty());
-}
-
-TEST(OpenNi2Source, ImagesAreThoseOfTheCamera) {
-  VirtualCamera camera("");
-  OpenNi2Source source(camera.Options());
-  const RgbdImage image = source.Next().value();
-  ASSERT_EQ(image.color.type(), CV_8UC3);
-  ASSERT_EQ(image.depth.type(), CV_32FC1);
-  // The first pattern of driver/pictures.cc: red counts columns, green rows; blue is 7.
-  EXPECT_EQ(image.color.at<cv::Vec3b>(20, 130), cv::Vec3b(7, 20, 130));
-  EXPECT_FLOAT_EQ(image.depth.at<float>(20, 130), 1.130F);
-}
-
-TEST(OpenNi2Source, ReversedColorsAreTurned) {
-  VirtualCamera camera("");
-  OpenNi2Source::Options options = camera.Options();
-  options.is_rgb = false;
-  OpenNi2Source source(options);
-  EXPECT_EQ(source.Next().value().color.at<cv::Vec3b>(20, 130), cv::Vec3b(130, 20, 7));
 }
 
 TEST(OpenNi2Source, TimesAreThoseOfTheSystem) {
@@ -94,7 +70,9 @@ TEST(OpenNi2Source, ItEndsAfterTheDuration) {
   OpenNi2Source::Options options = camera.Options();
   options.duration = FromSeconds(0.5);
   OpenNi2Source source(options);
-  EXPECT_EQ(Read(source, 100).size(), 15u);
+  const std::vector<RgbdImage> images = Read(source, 100);
+  EXPECT_LT(ToSeconds(images.back().time - images.front().time), 0.5);
+  EXPECT_GT(ToSeconds(images.back().time - images.front().time), 0.3);
   EXPECT_FALSE(source.failure());
 }
 
@@ -127,9 +105,22 @@ TEST(OpenNi2Source, WithoutACameraItSaysWhatToDo) {
 }
 
 TEST(OpenNi2Source, ACameraThatAnotherProgramHasIsNamedWithTheReason) {
-  VirtualCamera camera("busy");
+  VirtualCamera camera("locked Resource busy");
   EXPECT_THAT(InputErrorOf([&] { OpenNi2Source source(camera.Options()); }),
               AllOf(HasSubstr("clip@1"), HasSubstr("Resource busy"), HasSubstr("another program")));
+}
+
+TEST(OpenNi2Source, ACameraThatMayNotBeUsedIsNamedWithTheRuleThatAllowsIt) {
+  VirtualCamera camera("locked Access denied (insufficient permissions)");
+  EXPECT_THAT(InputErrorOf([&] { OpenNi2Source source(camera.Options()); }),
+              AllOf(HasSubstr("clip@1"), HasSubstr("insufficient"), HasSubstr("udev rule")));
+}
+
+TEST(OpenNi2Source, ACameraIsFoundByItsUri) {
+  VirtualCamera camera("");
+  OpenNi2Source::Options options = camera.Options();
+  options.device = "clip@1";
+  EXPECT_TRUE(OpenNi2Source(options).Next());
 }
 
 TEST(OpenNi2Source, AnUnknownUriIsAnsweredWithTheKnownOnes) {
@@ -159,10 +150,19 @@ TEST(OpenNi2Source, WhatACameraMayRefuseIsToldAndItGoesOn) {
   EXPECT_THAT(camera.messages(), ElementsAre(HasSubstr("exposure")));
 }
 
-TEST(OpenNi2Source, ACameraWithoutDepthIsRefused) {
-  VirtualCamera camera("refuse depth");
+TEST(OpenNi2Source, ImagesThatStayMirroredAreRefused) {
+  VirtualCamera camera("refuse unmirroring");
   EXPECT_THAT(InputErrorOf([&] { OpenNi2Source source(camera.Options()); }),
-              HasSubstr("found no depth sensor"));
+              HasSubstr("colour images are mirrored"));
+}
+
+TEST(OpenNi2Source, ACameraWithoutOneOfTheSensorsIsRefused) {
+  for (const auto& [script, name] :
+       {std::pair("refuse depth", "depth"), {"refuse color", "colour"}}) {
+    VirtualCamera camera(script);
+    EXPECT_THAT(InputErrorOf([&] { OpenNi2Source source(camera.Options()); }),
+                HasSubstr("found no " + std::string(name) + " sensor"));
+  }
 }
 
 TEST(OpenNi2Source, AnotherImageSizeIsRefusedAndTheOfferedOnesAreNamed) {
@@ -172,10 +172,11 @@ TEST(OpenNi2Source, AnotherImageSizeIsRefusedAndTheOfferedOnesAreNamed) {
 }
 
 struct FaultCase {
-  const char* name;
-  const char* script;
-  const char* message;
+  std::string name;
+  std::string script;
+  std::string message;
 };
+void PrintTo(const FaultCase& fault, std::ostream* out) { *out << fault.script; }
 
 class OpenNi2SourceFault : public ::testing::TestWithParam<FaultCase> {};
 
@@ -204,7 +205,7 @@ TEST_P(OpenNi2SourceFault, ThatLastsTooLongEndsItWithAReason) {
   OpenNi2Source::Options options = camera.Options();
   options.patience_seconds = 0.5;
   OpenNi2Source source(options);
-  EXPECT_GT(Read(source, 1000).size(), 5u);
+  EXPECT_GE(Read(source, 1000).size(), 1u);
   EXPECT_THAT(source.failure().value_or(""), HasSubstr("did not come back within 0.5 s"));
   EXPECT_THAT(camera.messages(), ElementsAre(HasSubstr(GetParam().message)));
 }
@@ -216,17 +217,49 @@ INSTANTIATE_TEST_SUITE_P(
                       FaultCase{"Stalled", "stall 0.3 0.4", "no images for"},
                       FaultCase{"NoColor", "no_color 0.3 0.4", "no colour images for"},
                       FaultCase{"NoDepth", "no_depth 0.3 0.4", "no depth images for"},
-                      FaultCase{"Format", "format 0.3 0.4", "expected colour images of 160x120"}),
-    [](const auto& parameter) { return std::string(parameter.param.name); });
+                      FaultCase{"Size", "format 0.3 0.4",
+                                "expected colour images of 160x120, 30/s, RGB888, found 80x60"}),
+    [](const auto& parameter) { return parameter.param.name; });
 
-TEST(OpenNi2Source, ItCanBeOpenedAndClosedOftenAndAtAnyTime) {
+// The camera was asked for colours each time it was opened; gray is better than nothing.
+TEST(OpenNi2Source, AnotherFormatIsReportedAndThenReadAsItComes) {
+  VirtualCamera camera("gray 0.3 0.4");
+  OpenNi2Source::Options options = camera.Options();
+  options.duration = FromSeconds(1);
+  OpenNi2Source source(options);
+  EXPECT_GT(Read(source).size(), 15u);
+  const auto expected = [](const std::string& format, const std::string& found) {
+    return HasSubstr("expected colour images of 160x120, 30/s, " + format +
+                     ", found 160x120, 30/s, " + found);
+  };
+  EXPECT_THAT(camera.messages(),
+              ElementsAre(expected("RGB888", "GRAY8"), HasSubstr("images come again"),
+                          expected("GRAY8", "RGB888"), HasSubstr("images come again")));
+}
+
+std::ptrdiff_t NumEntries(const char* folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+// Memory is the address sanitizer's to look at.
+TEST(OpenNi2Source, ItCanBeOpenedAndClosedOftenAndLeavesNoThreadOrFile) {
   VirtualCamera camera("");
+  std::ptrdiff_t num_threads = 0;
+  std::ptrdiff_t num_files = 0;
   for (int i = 0; i < 20; ++i) {
-    OpenNi2Source source(camera.Options());
-    if (i % 2 == 0) {
-      EXPECT_TRUE(source.Next());
+    {
+      OpenNi2Source source(camera.Options());
+      if (i % 2 == 0) {
+        EXPECT_TRUE(source.Next());
+      }
+    }
+    if (i == 0) {
+      num_threads = NumEntries("/proc/self/task");
+      num_files = NumEntries("/proc/self/fd");
     }
   }
+  EXPECT_EQ(NumEntries("/proc/self/task"), num_threads);
+  EXPECT_EQ(NumEntries("/proc/self/fd"), num_files);
 }
 
 TEST(OpenNi2Source, ItSurvivesTwentyTimesUnplugging) {
@@ -255,7 +288,7 @@ TEST(OpenNi2DeviceList, NamesCamerasAndTheirModes) {
 }
 
 TEST(OpenNi2DeviceList, SaysWhyACameraCannotBeOpened) {
-  VirtualCamera camera("busy");
+  VirtualCamera camera("locked Resource busy");
   const std::vector<OpenNi2Device> devices = ListOpenNi2Devices();
   ASSERT_EQ(devices.size(), 1u);
   EXPECT_THAT(devices[0].problem, HasSubstr("Resource busy"));

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "semslam/base/guarded.h"
@@ -16,6 +19,17 @@ namespace semslam::testing {
 // Images of a quarter of the usual width: faults do not depend on it.
 inline constexpr int kCameraWidth = 160;
 inline constexpr int kCameraHeight = 120;
+
+// Reads so many frames, or all up to the end.
+inline std::vector<RgbdImage> Read(OpenNi2Source& source, std::size_t max_frames = 10000) {
+  std::vector<RgbdImage> images;
+  while (images.size() < max_frames) {
+    std::optional<RgbdImage> image = source.Next();
+    if (!image) break;
+    images.push_back(*std::move(image));
+  }
+  return images;
+}
 
 // The camera of driver/, with a script for as long as this lives. One at a time.
 class VirtualCamera {

@@ -21,7 +21,9 @@
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
 #include <Driver/OniDriverAPI.h>
+#include <opencv2/core.hpp>
 
+#include "formats.h"
 #include "pictures.h"
 #include "script.h"
 #include "world.h"
@@ -38,8 +40,6 @@ OniStatus Answer(const T& value, void* data, int* size) {
   *size = sizeof(T);
   return ONI_STATUS_OK;
 }
-
-int BytesPerPixel(OniPixelFormat format) { return format == ONI_PIXEL_FORMAT_RGB888 ? 3 : 2; }
 
 class Stream : public oni::driver::StreamBase {
  public:
@@ -103,6 +103,8 @@ class Stream : public oni::driver::StreamBase {
   }
   OniStatus setProperty(int property, const void* data, int size) override {
     if (isPropertySupported(property) == FALSE) return ONI_STATUS_NOT_SUPPORTED;
+    if (property == ONI_STREAM_PROPERTY_MIRRORING && script_.Refuses("unmirroring"))
+      return ONI_STATUS_ERROR;
     if (property == ONI_STREAM_PROPERTY_VIDEO_MODE && size == sizeof(mode_)) {
       std::memcpy(&mode_, data, sizeof(mode_));
     } else if (property == ONI_STREAM_PROPERTY_MIRRORING && size == sizeof(is_mirrored_)) {
@@ -114,17 +116,25 @@ class Stream : public oni::driver::StreamBase {
   }
   int getRequiredFrameSize() override { return script_.width * script_.height * 3; }
 
+  // What is wrong with an image.
+  struct Flaws {
+    bool in_half = false;
+    bool as_gray = false;
+    bool is_shifted = false;
+  };
+
   // Hands out an image, if the stream runs. `time` in microseconds.
-  void Send(const cv::Mat& image, int index, std::uint64_t time, bool in_half) {
+  void Send(const cv::Mat& image, int index, std::uint64_t time, const Flaws& flaws) {
     const std::lock_guard lock(sending_);
     if (!is_running_) return;
     OniFrame* const frame = getServices().acquireFrame();
     if (frame == nullptr) return;
-    const int divisor = in_half ? 2 : 1;
+    const int divisor = flaws.in_half ? 2 : 1;
     frame->sensorType = sensor_;
     frame->timestamp = time;
     frame->frameIndex = index;
     frame->videoMode = mode_;
+    if (flaws.as_gray) frame->videoMode.pixelFormat = ONI_PIXEL_FORMAT_GRAY8;
     frame->videoMode.resolutionX /= divisor;
     frame->videoMode.resolutionY /= divisor;
     frame->width = frame->videoMode.resolutionX;
@@ -132,36 +142,51 @@ class Stream : public oni::driver::StreamBase {
     frame->croppingEnabled = FALSE;
     frame->cropOriginX = 0;
     frame->cropOriginY = 0;
-    frame->stride = frame->width * BytesPerPixel(mode_.pixelFormat);
+    frame->stride = frame->width * BytesPerPixel(frame->videoMode.pixelFormat);
     frame->dataSize = frame->stride * frame->height;
-    std::memcpy(frame->data, image.data, static_cast<std::size_t>(frame->dataSize));
+    const cv::Mat sent = Encode(Seen(image, flaws.is_shifted), frame->videoMode.pixelFormat);
+    std::memcpy(frame->data, sent.data, static_cast<std::size_t>(frame->dataSize));
     raiseNewFrame(frame);
     getServices().releaseFrame(frame);
   }
 
  private:
+  // The picture as the stream's properties have it.
+  cv::Mat Seen(const cv::Mat& picture, bool is_shifted) const {
+    const bool is_dark = sensor_ == ONI_SENSOR_COLOR && is_automatic_ == FALSE;
+    const bool is_mirrored = is_mirrored_ == TRUE && !script_.Refuses("mirroring");
+    if (!is_shifted && !is_dark && !is_mirrored) return picture;
+    cv::Mat seen = picture.clone();
+    if (is_shifted) {
+      const int width = picture.cols - Script::kParallax;
+      seen.setTo(0);
+      picture.colRange(0, width).copyTo(seen.colRange(Script::kParallax, picture.cols));
+    }
+    if (is_dark) seen *= 0.25;
+    if (is_mirrored) cv::flip(seen.clone(), seen, 1);
+    return seen;
+  }
+
   const Script& script_;
   const OniSensorType sensor_;
   OniVideoMode mode_;
   std::function<void()> start_;
   OniBool is_mirrored_ = TRUE;  // As the real cameras start.
-  OniBool is_automatic_ = TRUE;
+  OniBool is_automatic_ = FALSE;
   std::atomic<bool> is_running_ = false;
   std::mutex sending_;
 };
 
 class Device : public oni::driver::DeviceBase {
  public:
-  Device(const Script& script, const Pictures& pictures, World& world)
-      : script_(script), pictures_(pictures), world_(world) {
-    const OniPixelFormat color =
-        script.Refuses("rgb") ? ONI_PIXEL_FORMAT_YUV422 : ONI_PIXEL_FORMAT_RGB888;
+  Device(const Script& script,
+         const Pictures& pictures,
+         World& world,
+         const std::atomic<bool>& is_synchronized)
+      : script_(script), pictures_(pictures), world_(world), is_synchronized_(is_synchronized) {
     const int divisor = script.Refuses("size") ? 2 : 1;
-    const int width = script.width / divisor;
-    const int height = script.height / divisor;
-    color_modes_ = {{color, width, height, script.fps}, {color, width / 2, height / 2, script.fps}};
-    depth_modes_ = {{ONI_PIXEL_FORMAT_DEPTH_1_MM, width, height, script.fps},
-                    {ONI_PIXEL_FORMAT_DEPTH_100_UM, width, height, script.fps}};
+    for (const int more : {1, 2}) AddModes(script.color_formats, more * divisor, color_modes_);
+    AddModes(script.depth_formats, divisor, depth_modes_);
     if (!script.Refuses("color"))
       sensors_.push_back(
           {ONI_SENSOR_COLOR, static_cast<int>(color_modes_.size()), color_modes_.data()});
@@ -210,6 +235,15 @@ class Device : public oni::driver::DeviceBase {
   }
 
  private:
+  void AddModes(const std::vector<std::string>& formats,
+                int divisor,
+                std::vector<OniVideoMode>& modes) const {
+    for (const std::string& format : formats) {
+      modes.push_back(
+          {FormatByName(format), script_.width / divisor, script_.height / divisor, script_.fps});
+    }
+  }
+
   void Start() {
     world_.Start();
     const std::lock_guard lock(mutex_);
@@ -237,8 +271,17 @@ class Device : public oni::driver::DeviceBase {
       for (const auto& stream : Streams()) {
         const bool is_color = stream->sensor() == ONI_SENSOR_COLOR;
         if (script_.IsOn(is_color ? "no_color" : "no_depth", time)) continue;
-        stream->Send(is_color ? pictures_.Color(frame) : pictures_.Depth(frame), index, stamp,
-                     is_color && script_.IsOn("format", time));
+        if (is_color) {
+          stream->Send(
+              pictures_.Color(frame), index, stamp,
+              {.in_half = script_.IsOn("format", time), .as_gray = script_.IsOn("gray", time)});
+        } else {
+          const std::size_t shown =
+              is_synchronized_ ? frame : std::min(frame + 1, pictures_.size() - 1);
+          const std::uint64_t late = is_synchronized_ ? 0 : Script::kLateDepth;
+          stream->Send(pictures_.Depth(shown), index, stamp + late,
+                       {.is_shifted = registration_ == ONI_IMAGE_REGISTRATION_OFF});
+        }
       }
     }
   }
@@ -249,6 +292,7 @@ class Device : public oni::driver::DeviceBase {
   const Script& script_;
   const Pictures& pictures_;
   World& world_;
+  const std::atomic<bool>& is_synchronized_;
   std::vector<OniVideoMode> color_modes_;
   std::vector<OniVideoMode> depth_modes_;
   std::vector<OniSensorInfo> sensors_;
@@ -280,19 +324,24 @@ class Driver : public oni::driver::DriverBase {
 
   oni::driver::DeviceBase* deviceOpen(const char* uri, const char* /*mode*/) override {
     const std::string known = Info().uri;
-    if (uri == nullptr || uri != known || !is_plugged_ || script_.is_busy) {
-      getServices().errorLoggerAppend("Could not open \"%s\": %s", uri,
-                                      script_.is_busy ? "Resource busy" : "no such device");
+    if (uri == nullptr || uri != known || !is_plugged_ || !script_.lock.empty()) {
+      getServices().errorLoggerAppend(
+          "Could not open \"%s\": %s", uri,
+          script_.lock.empty() ? "no such device" : script_.lock.c_str());
       return nullptr;
     }
     if (!pictures_) pictures_.emplace(script_);
-    return new Device(script_, *pictures_, world_);
+    is_synchronized_ = false;
+    return new Device(script_, *pictures_, world_, is_synchronized_);
   }
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
 
   void* enableFrameSync(oni::driver::StreamBase** /*streams*/, int /*num_streams*/) override {
-    return script_.Refuses("sync") ? nullptr : this;
+    if (script_.Refuses("sync")) return nullptr;
+    is_synchronized_ = true;
+    return this;
   }
+  void disableFrameSync(void* /*group*/) override { is_synchronized_ = false; }
 
  private:
   // A camera gets a new place on the bus whenever it is plugged in.
@@ -324,6 +373,7 @@ class Driver : public oni::driver::DriverBase {
   const Script script_;
   std::optional<Pictures> pictures_;  // Once somebody looks.
   World world_;
+  std::atomic<bool> is_synchronized_ = false;  // There is one camera.
   std::atomic<int> num_plugged_ = 1;
   std::atomic<bool> is_plugged_ = true;
   std::jthread hotplug_;  // Last: ends first.

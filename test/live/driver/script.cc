@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 namespace semslam::testing {
 namespace {
+
+bool ReadWords(std::istream& values, std::vector<std::string>& words) {
+  words.assign(std::istream_iterator<std::string>(values), {});
+  return !words.empty();
+}
 
 bool ReadLine(const std::string& key, std::istream& values, Script& script) {
   if (key == "size") return static_cast<bool>(values >> script.width >> script.height);
@@ -16,15 +22,17 @@ bool ReadLine(const std::string& key, std::istream& values, Script& script) {
   if (key == "clip") {
     return static_cast<bool>(values >> script.clip >> script.associations >> script.depth_factor);
   }
+  if (key == "color") return ReadWords(values, script.color_formats);
+  if (key == "depth") return ReadWords(values, script.depth_formats);
   if (key == "absent") return script.is_absent = true;
-  if (key == "busy") return script.is_busy = true;
+  if (key == "locked") return static_cast<bool>(std::getline(values >> std::ws, script.lock));
   if (key == "refuse") {
     std::string what;
     values >> what;
     return script.refused.insert(what).second;
   }
   if (key == "unplug" || key == "stall" || key == "no_color" || key == "no_depth" ||
-      key == "format") {
+      key == "format" || key == "gray") {
     Script::Fault fault{.kind = key};
     if (!(values >> fault.begin >> fault.end)) return false;
     fault.end += fault.begin;

@@ -14,14 +14,23 @@ namespace semslam::testing {
 //   size WIDTH HEIGHT              of all images; 640 480
 //   fps FRAMES                     30
 //   clip FOLDER ASSOCIATIONS FACTOR  a clip in TUM's format; without one, a moving pattern
-//   refuse THING                   registration, sync, mirroring, exposure, color, depth, rgb, size
+//   color FORMAT ...               what it offers, the first one being set: RGB888 by default, or
+//                                  YUV422, YUYV, GRAY8, JPEG (which it can only offer)
+//   depth FORMAT ...               1mm 100um
+//   refuse THING                   registration, sync, mirroring, unmirroring (images stay so),
+//                                  exposure, color, depth, size
 //   absent                         no camera
-//   busy                           somebody else has it
+//   locked REASON                  it cannot be opened
 //   unplug AT SECONDS              faults begin AT seconds after the first start of a stream and
 //   stall AT SECONDS               last for SECONDS; the clip goes on meanwhile
 //   no_color AT SECONDS
 //   no_depth AT SECONDS
 //   format AT SECONDS              colour in half the size
+//   gray AT SECONDS                colour as GRAY8
+//
+// Colour is dark unless its exposure is automatic, which it is not at first. Without registration
+// depth is shifted to the right by kParallax; without synchronisation it is that of the next frame
+// and has times later by kLateDepth.
 struct Script {
   struct Fault {
     std::string kind;
@@ -29,15 +38,20 @@ struct Script {
     double end = 0;
   };
 
+  static constexpr int kParallax = 5;       // Pixels.
+  static constexpr int kLateDepth = 12000;  // Microseconds.
+
   int width = 640;
   int height = 480;
   int fps = 30;
   std::filesystem::path clip;
   std::filesystem::path associations;
   double depth_factor = 5000;
+  std::vector<std::string> color_formats = {"RGB888"};
+  std::vector<std::string> depth_formats = {"1mm", "100um"};
   std::set<std::string> refused;
   bool is_absent = false;
-  bool is_busy = false;
+  std::string lock;  // Why it cannot be opened; empty: it can.
   std::vector<Fault> faults;
 
   bool Refuses(const std::string& what) const { return refused.count(what) > 0; }
