@@ -6,20 +6,16 @@ that plays a clip in real time and has faults by a script.
 CMake gives the folder of that OpenNI2 in SEMSLAM_OPENNI2.
 """
 import concurrent.futures
-import fcntl
 import os
-import pty
 import re
-import select
 import signal
-import struct
 import subprocess
-import termios
 import time
 import unittest
 
 import formats
 import harness
+import terminal
 import xserver
 from harness import CLIP, FILES, EndToEndTest, images, run
 
@@ -248,60 +244,36 @@ class TerminalTest(LiveTest):
 
     PROGRESS = r"frame \d+  [\d.]+/s  \d+ dropped  \d+/\d+ ms late  tracking  \d+ keyframes"
 
-    def setUp(self):
-        super().setUp()
-        self.master, slave = pty.openpty()
-        self.addCleanup(os.close, self.master)
-        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 200, 0, 0))
-        self.slave = slave
-        self.text = ""
-
     def start(self, *options, environment):
-        process = subprocess.Popen(
-            [harness.BIN / "rgbd_openni2", *map(str, self.arguments(*options))],
-            env={**self.environment(), **environment}, text=True, stdout=subprocess.PIPE,
-            stderr=self.slave)
-        os.close(self.slave)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
+        program = terminal.Terminal([harness.BIN / "rgbd_openni2", *self.arguments(*options)],
+                                    {**self.environment(), **environment})
+        self.addCleanup(program.close)
+        return program
 
-    def read(self, until=None):
-        """What the terminal shows, up to a match or to the end."""
-        end = time.monotonic() + harness.TIMEOUT
-        while until is None or not re.search(until, self.text):
-            ready, _, _ = select.select([self.master], [], [], max(0, end - time.monotonic()))
-            self.assertTrue(ready, self.text)
-            try:
-                self.text += os.read(self.master, 4096).decode()
-            except OSError:  # The program has closed its end.
-                break
-
-    def finish(self, process):
-        process.send_signal(signal.SIGINT)
-        self.read()
-        summary, _ = process.communicate(timeout=harness.TIMEOUT)
-        self.assertIn(process.returncode, [0, 2], self.text)
-        self.assertIn("(interrupted)", summary)
+    def finish(self, program):
+        program.process.send_signal(signal.SIGINT)
+        program.finish()
+        self.assertIn(program.process.returncode, [0, 2], program.text)
+        self.assertIn("(interrupted)", program.text)
         self.assert_whole_files()
 
     def test_progress_tells_rate_drops_lateness_and_state(self):
-        process = self.start(environment={})
-        self.read(until=self.PROGRESS)
-        self.finish(process)
-        self.assertRegex(self.text, self.PROGRESS)
+        program = self.start(environment={})
+        program.wait_for(self.PROGRESS)
+        self.finish(program)
+        self.assertRegex(program.text, self.PROGRESS)
 
-    @unittest.skipIf(not (harness.BIN / "view_map").exists() or (
-        xserver.MISSING and "SEMSLAM_REQUIRE_VIEWER" not in os.environ), "no viewer or screen")
+    @unittest.skipIf(not (harness.BIN / "view_map").exists() or xserver.IS_SKIPPED,
+                     "no viewer or screen")
     def test_a_window_shows_the_camera_until_an_interrupt(self):
         screen = xserver.Screen()
         self.addCleanup(screen.close)
-        process = self.start("--viewer", "--device", "clip@1", environment={"DISPLAY": screen.name})
-        self.assertIsNotNone(screen.wait_for_window(process))
+        program = self.start("--viewer", "--device", "clip@1", environment={"DISPLAY": screen.name})
+        self.assertIsNotNone(screen.wait_for_window(program.process))
         self.assertGreater(screen.wait_for_colors(300, left=400, right=900), 300)
-        self.finish(process)
+        self.finish(program)
         self.assertEqual(screen.windows(), [])
-        self.assertNotIn("without a viewer", self.text)
+        self.assertNotIn("without a viewer", program.text)
 
 
 class RefusalTest(LiveTest):

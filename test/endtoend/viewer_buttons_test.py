@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the semslam authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What the buttons of the windows do, pressed by a mouse on a screen in memory."""
-import os
 import re
 import shutil
 import signal
-import sys
 import time
 import unittest
 
@@ -257,8 +255,5 @@ class RunWindowTest(ButtonsTest):
 
 
 if __name__ == "__main__":
-    if xserver.MISSING and "SEMSLAM_REQUIRE_VIEWER" not in os.environ:
-        print(f"skipped: {' and '.join(xserver.MISSING)} not found; "
-              "scripts/install_dependencies.sh --with-browser installs them")
-        sys.exit(77)  # CTest's "skipped", as in CMakeLists.txt.
+    xserver.skip_if_missing()
     unittest.main()

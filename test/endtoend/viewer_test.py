@@ -6,7 +6,6 @@ import math
 import os
 import signal
 import subprocess
-import sys
 import time
 import types
 import unittest
@@ -132,8 +131,5 @@ class ViewerTest(EndToEndTest):
 
 
 if __name__ == "__main__":
-    if xserver.MISSING and "SEMSLAM_REQUIRE_VIEWER" not in os.environ:
-        print(f"skipped: {' and '.join(xserver.MISSING)} not found; "
-              "scripts/install_dependencies.sh --with-browser installs them")
-        sys.exit(77)  # CTest's "skipped", as in CMakeLists.txt.
+    xserver.skip_if_missing()
     unittest.main()

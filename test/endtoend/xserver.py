@@ -9,6 +9,7 @@ import pathlib
 import shutil
 import struct
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -17,8 +18,17 @@ X11 = ctypes.util.find_library("X11")
 XTST = ctypes.util.find_library("Xtst")
 MISSING = [name for name, found in [("Xvfb", XVFB), ("libX11", X11), ("libXtst", XTST)]
            if not found]
+IS_SKIPPED = bool(MISSING) and "SEMSLAM_REQUIRE_VIEWER" not in os.environ
 PICTURE = 0.5  # Seconds; a window drawn in software on a busy machine shows a picture in that time.
 ERROR_HANDLER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
+
+
+def skip_if_missing():
+    """Ends a test program that cannot have a screen."""
+    if IS_SKIPPED:
+        print(f"skipped: {' and '.join(MISSING)} not found; "
+              "scripts/install_dependencies.sh --with-browser installs them")
+        sys.exit(77)  # CTest's "skipped", as in CMakeLists.txt.
 
 
 class ClientMessage(ctypes.Structure):
