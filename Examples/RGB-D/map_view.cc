@@ -24,6 +24,7 @@ std::vector<semslam::ObjectRecord> ToRecords(const std::vector<semslam::Semantic
     record.id = object.id;
     record.label = LabelOfClass(object.class_id);
     record.confidence = object.confidence;
+    record.entropy = object.entropy;
     record.num_views = object.num_views;
     record.supporting_segment = object.supporting_segment;
     record.supporting_object = object.supporting_object;
@@ -46,7 +47,8 @@ MapView::MapView(const semslam::PointCloudMapping::Result& map) {
                  .labels = labels_,
                  .segments = map.semantics.segment_of_point,
                  .objects = map.semantics.object_of_point,
-                 .confidences = map.semantics.confidence_of_point};
+                 .confidences = map.semantics.confidence_of_point,
+                 .entropies = map.semantics.entropy_of_point};
   view_.point_size = map.cloud.voxel_size;
   view_.classes = ClassesOfInterest(map.semantics.classes);
   view_.objects = ToRecords(map.semantics.objects);

@@ -11,7 +11,7 @@ import argparse
 import json
 import sys
 
-FORMAT = "semslam objects 2"
+FORMAT = "semslam objects 3"
 
 
 def read_objects(path):

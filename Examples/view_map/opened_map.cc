@@ -164,6 +164,7 @@ void OpenedMap::OpenMap(const std::filesystem::path& path) {
   copy(map.cloud.segments, &columns_.segments);
   copy(map.cloud.objects, &columns_.objects);
   copy(map.cloud.confidences, &columns_.confidences);
+  copy(map.cloud.entropies, &columns_.entropies);
   if (columns_.positions.empty()) throw InputError(path.string() + ": the map has no points");
   ShowColumns();
   scene_.map.point_size = map.point_size;

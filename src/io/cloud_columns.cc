@@ -45,7 +45,7 @@ void CheckLengths(const CloudView& cloud) {
   const std::size_t size = cloud.positions.size();
   for (const std::size_t length :
        {cloud.colors.size(), cloud.normals.size(), cloud.labels.size(), cloud.segments.size(),
-        cloud.objects.size(), cloud.confidences.size()}) {
+        cloud.objects.size(), cloud.confidences.size(), cloud.entropies.size()}) {
     SEMSLAM_CHECK(length == 0 || length == size) << length << " values for " << size << " points";
   }
 }
@@ -74,6 +74,9 @@ std::vector<CloudColumn> LabelColumns(const CloudView& cloud) {
   if (!cloud.objects.empty()) columns.push_back({"object", 'U', PutValue<&CloudView::objects>});
   if (!cloud.confidences.empty()) {
     columns.push_back({"confidence", 'F', PutValue<&CloudView::confidences>});
+  }
+  if (!cloud.entropies.empty()) {
+    columns.push_back({"entropy", 'F', PutValue<&CloudView::entropies>});
   }
   return columns;
 }

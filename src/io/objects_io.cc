@@ -37,6 +37,7 @@ Json ToJson(const ObjectRecord& object, const std::vector<ClassRecord>& classes)
           {"label", object.label},
           {"class", found == classes.end() ? "" : found->name},
           {"confidence", object.confidence},
+          {"entropy", object.entropy},
           {"num_views", object.num_views},
           {"num_points", object.num_points},
           {"centroid", ToJson(object.centroid)},
@@ -50,8 +51,11 @@ Json ToJson(const ObjectRecord& object, const std::vector<ClassRecord>& classes)
 void WriteObjects(const std::filesystem::path& path,
                   const std::vector<ClassRecord>& classes,
                   const std::vector<ObjectRecord>& objects) {
-  Json json = {{"format", "semslam objects 2"},
-               {"units", {{"length", "metre"}, {"confidence", "share in [0, 1]"}}},
+  Json json = {{"format", "semslam objects 3"},
+               {"units",
+                {{"length", "metre"},
+                 {"confidence", "probability in [0, 1]"},
+                 {"entropy", "0 sure, 1 all outcomes equally probable"}}},
                {"frame", "world = camera of the first keyframe: x right, y down, z forward"},
                {"classes", Json::array()},
                {"objects", Json::array()}};

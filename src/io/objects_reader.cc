@@ -38,6 +38,7 @@ ObjectRecord ToObject(const JsonField& json, const std::set<std::uint32_t>& labe
   record.label = static_cast<std::uint32_t>(json["label"].Unsigned(kMaxId));
   if (!labels.contains(record.label)) json["label"].Fail("a label of the class table");
   record.confidence = json["confidence"].Number();
+  record.entropy = json["entropy"].Number();
   record.num_views = json["num_views"].Unsigned(std::numeric_limits<std::uint64_t>::max());
   record.num_points = json["num_points"].Unsigned(std::numeric_limits<std::uint64_t>::max());
   record.centroid = json["centroid"].Vector(3);
@@ -52,7 +53,7 @@ ObjectRecord ToObject(const JsonField& json, const std::set<std::uint32_t>& labe
 
 ObjectsFile ReadObjects(const std::filesystem::path& path) {
   const JsonField root = JsonField::FromFile(path);
-  if (root["format"].String() != "semslam objects 2") root["format"].Fail("semslam objects 2");
+  if (root["format"].String() != "semslam objects 3") root["format"].Fail("semslam objects 3");
   ObjectsFile file;
   std::set<std::uint32_t> labels;
   for (const JsonField& item : root["classes"].Items()) {

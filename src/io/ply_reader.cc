@@ -272,6 +272,7 @@ CloudColumns Extract(const std::string& name, const Header& header, std::string_
   const Property* segment = Find(header, "segment");
   const Property* object = Find(header, "object");
   const Property* confidence = Find(header, "confidence");
+  const Property* entropy = Find(header, "entropy");
   if (!position) Fail(name, "header: expected the properties x, y and z");
   Vertices vertices(name, header, data);
   const auto vector_of = [&vertices](const std::array<const Property*, 3>& axes) {
@@ -297,6 +298,7 @@ CloudColumns Extract(const std::string& name, const Header& header, std::string_
     if (segment) cloud.segments.push_back(ToId(vertices.Value(*segment)));
     if (object) cloud.objects.push_back(ToId(vertices.Value(*object)));
     if (confidence) cloud.confidences.push_back(static_cast<float>(vertices.Value(*confidence)));
+    if (entropy) cloud.entropies.push_back(static_cast<float>(vertices.Value(*entropy)));
   }
   return cloud;
 }

@@ -5,34 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
+#include <map>
 
 #include <Eigen/Geometry>
 
+#include "semantics/belief.h"
+
 namespace semslam {
 namespace {
-
-struct Best {
-  int class_id = kNoClass;
-  double confidence = 0;
-};
-
-// The class with the most evidence, kNoClass if that is the background, and its share of it all.
-// Ties go to the lower id.
-Best FindBest(const std::vector<std::int64_t>& alpha, std::int64_t background) {
-  std::int64_t sum = background;
-  std::int64_t most = background;
-  Best best;
-  for (std::size_t c = 0; c < alpha.size(); ++c) {
-    sum += alpha[c];
-    if (alpha[c] > most) {
-      most = alpha[c];
-      best.class_id = static_cast<int>(c);
-    }
-  }
-  if (sum > 0) best.confidence = static_cast<double>(most) / static_cast<double>(sum);
-  return best;
-}
 
 std::vector<Eigen::Vector3f> PointsNear(const std::vector<Eigen::Vector3f>& points,
                                         const Eigen::AlignedBox3f& box,
@@ -56,6 +36,7 @@ class Labeller {
         segmentation_(segmentation),
         classes_(classes),
         options_(options),
+        unknown_(std::max<std::int64_t>(1, std::llround(options.min_evidence / kEvidenceUnit))),
         labels_(segmentation.segments.size()),
         points_(segmentation.segments.size()),
         extents_(segmentation.segments.size()) {
@@ -90,14 +71,15 @@ class Labeller {
     const SegmentEvidence& sums = EvidenceOf(segment);
     SegmentLabel& label = LabelOf(segment);
     label.object_root = segment;
-    const Best best = FindBest(sums.alpha, sums.background);
-    if (best.class_id == kNoClass || !classes_.is_of_interest(best.class_id)) return;
-    const std::uint32_t num_views = sums.num_views[static_cast<std::size_t>(best.class_id)];
-    if (best.confidence < options_.min_confidence || num_views == 0) return;
+    const Belief belief(sums.alpha, sums.background, unknown_);
+    label.confidence = belief.background_confidence();
+    label.entropy = belief.Entropy();
+    const int class_id = belief.best_class();
+    if (class_id == kNoClass || !classes_.is_of_interest(class_id)) return;
+    const std::uint32_t num_views = sums.num_views[static_cast<std::size_t>(class_id)];
+    if (belief.ProbabilityOf(class_id) < options_.min_confidence || num_views == 0) return;
     if (num_views < std::min(options_.min_views, sums.num_seen)) return;
-    const std::int64_t alpha = sums.alpha[static_cast<std::size_t>(best.class_id)];
-    if (static_cast<double>(alpha) * kEvidenceUnit < options_.min_evidence) return;
-    label.class_id = best.class_id;
+    label.class_id = class_id;
   }
 
   // Whether two segments were under one box in most of the keyframes in which boxes held them.
@@ -170,32 +152,34 @@ class Labeller {
     const int class_id = LabelOf(part).class_id;
     if (class_id == kNoClass || LabelOf(piece).class_id != kNoClass) return false;
     const SegmentEvidence& sums = EvidenceOf(piece);
-    const Best best = FindBest(sums.part_alpha, sums.background);
-    return best.class_id == class_id && best.confidence >= options_.min_confidence;
+    const Belief belief(sums.part_alpha, sums.background, unknown_);
+    return belief.best_class() == class_id &&
+           belief.ProbabilityOf(class_id) >= options_.min_confidence;
   }
 
-  // Confidence and views of an object from all its parts.
+  // Confidence, entropy and views of an object from all its parts.
   void SumUpObjects() {
-    std::vector<std::int64_t> alpha(labels_.size() + 1, 0);
-    std::vector<std::int64_t> total(labels_.size() + 1, 0);
-    std::vector<std::uint32_t> num_views(labels_.size() + 1, 0);
+    std::map<SegmentId, SegmentEvidence> sums_of;  // By root.
     for (SegmentId segment = 1; segment <= labels_.size(); ++segment) {
       SegmentLabel& label = LabelOf(segment);
       if (label.class_id == kNoClass) continue;
       label.object_root = Root(segment);
-      const SegmentEvidence& sums = EvidenceOf(segment);
+      const SegmentEvidence& part = EvidenceOf(segment);
+      SegmentEvidence& sums = sums_of[label.object_root];
       const auto c = static_cast<std::size_t>(label.class_id);
-      const SegmentId root = label.object_root;
-      alpha[root] += sums.part_alpha[c];
-      total[root] +=
-          std::accumulate(sums.part_alpha.begin(), sums.part_alpha.end(), sums.background);
-      num_views[root] = std::max(num_views[root], sums.num_views[c]);
+      sums.part_alpha.resize(classes_.size());
+      sums.num_views.resize(classes_.size());
+      for (std::size_t i = 0; i < classes_.size(); ++i) sums.part_alpha[i] += part.part_alpha[i];
+      sums.background += part.background;
+      sums.num_views[c] = std::max(sums.num_views[c], part.num_views[c]);
     }
     for (SegmentLabel& label : labels_) {
       if (label.class_id == kNoClass) continue;
-      const SegmentId root = label.object_root;
-      label.num_views = num_views[root];
-      label.confidence = static_cast<double>(alpha[root]) / static_cast<double>(total[root]);
+      const SegmentEvidence& sums = sums_of[label.object_root];
+      const Belief belief(sums.part_alpha, sums.background, unknown_);
+      label.num_views = sums.num_views[static_cast<std::size_t>(label.class_id)];
+      label.confidence = belief.ProbabilityOf(label.class_id);
+      label.entropy = belief.Entropy();
     }
   }
 
@@ -203,6 +187,7 @@ class Labeller {
   const Segmentation& segmentation_;
   const ClassTable& classes_;
   const FusionOptions& options_;
+  const std::int64_t unknown_;  // Evidence for not knowing.
   std::vector<SegmentLabel> labels_;
   std::vector<std::vector<Eigen::Vector3f>> points_;  // By segment.
   std::vector<Eigen::AlignedBox3f> extents_;          // In world axes.

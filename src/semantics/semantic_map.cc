@@ -23,7 +23,7 @@ std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
                                         const MapCloud& cloud,
                                         const VoxelIndex& index,
                                         const Segmentation& segmentation) {
-  const SupportFinder supports(index, segmentation);
+  const SupportFinder supports(cloud, index, segmentation);
   std::map<SegmentId, std::vector<SegmentId>> parts_of;  // By root.
   for (SegmentId segment = 1; segment <= labels.size(); ++segment) {
     const SegmentLabel& label = labels[segment - 1];
@@ -43,6 +43,7 @@ std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
     SemanticObject object;
     object.class_id = label.class_id;
     object.confidence = label.confidence;
+    object.entropy = label.entropy;
     object.num_views = label.num_views;
     object.segments = std::move(segments);
     object.num_points = points.size();
@@ -114,12 +115,14 @@ void LabelPoints(const std::vector<SegmentLabel>& labels,
   const std::size_t num_points = map.segment_of_point.size();
   map.class_of_point.assign(num_points, kNoClass);
   map.confidence_of_point.assign(num_points, 0.0F);
+  map.entropy_of_point.assign(num_points, 1.0F);
   map.object_of_point.assign(num_points, 0);
   for (std::size_t i = 0; i < num_points; ++i) {
     const SegmentId segment = map.segment_of_point[i];
-    if (segment == 0 || labels[segment - 1].class_id == kNoClass) continue;
+    if (segment == 0) continue;
     map.class_of_point[i] = labels[segment - 1].class_id;
     map.confidence_of_point[i] = static_cast<float>(labels[segment - 1].confidence);
+    map.entropy_of_point[i] = static_cast<float>(labels[segment - 1].entropy);
     map.object_of_point[i] = object_of_segment[segment];
   }
 }

@@ -6,20 +6,18 @@
 #include <cmath>
 #include <map>
 
+#include "semslam/dense/up_direction.h"
+
+#include "semantics/round_footprint.h"
+
 namespace semslam {
 namespace {
 
-constexpr double kMaxTilt = 0.5;   // Cosine of the angle between the first camera's up and up.
 constexpr double kLevel = 0.966;   // Cosine of 15 degrees between a level plane's normal and up.
 constexpr double kLayer = 0.02;    // Metres above the lowest point that stand on something.
 constexpr double kMaxSink = 0.01;  // Metres by which noise puts points below what carries them.
 constexpr double kReach = 0.03;    // Metres from a low point to its support, sideways and down.
 constexpr double kTrimmed = 0.02;  // Share of a thing's points that may be outliers below it.
-
-// Either sense of a normal serves: what lies above is what was seen.
-Eigen::Vector3d TowardsUp(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
-  return normal.dot(up) < 0 ? Eigen::Vector3d(-normal) : normal;
-}
 
 // The height that all but a few points are above.
 double LowestHeight(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& up) {
@@ -34,17 +32,12 @@ double LowestHeight(std::span<const Eigen::Vector3d> points, const Eigen::Vector
 
 }  // namespace
 
-SupportFinder::SupportFinder(const VoxelIndex& index, const Segmentation& segmentation)
+SupportFinder::SupportFinder(const MapCloud& cloud,
+                             const VoxelIndex& index,
+                             const Segmentation& segmentation)
     : index_(index), segmentation_(segmentation) {
-  const Eigen::Vector3d camera_up = -Eigen::Vector3d::UnitY();
-  double largest_area = 0;
-  for (const Segment& segment : segmentation.segments) {
-    if (!segment.plane || !segment.is_structural || segment.area <= largest_area) continue;
-    const Eigen::Vector3d normal = TowardsUp(segment.plane->normal, camera_up);
-    if (normal.dot(camera_up) < kMaxTilt) continue;
-    largest_area = segment.area;
-    up_ = normal;
-  }
+  const auto up = CommonUpNormal(cloud.normals, -Eigen::Vector3f::UnitY());
+  if (up) up_ = up->cast<double>();
 }
 
 SegmentId SupportFinder::FindSupport(std::span<const Eigen::Vector3d> points,
@@ -93,8 +86,9 @@ OrientedBox SupportFinder::FitBox(std::span<const Eigen::Vector3d> points,
                                   SegmentId support) const {
   if (!up_) return FitOrientedBox(points);
   const std::optional<Plane> plane = LevelPlaneOf(support);
-  if (!plane) return FitUprightBox(points, *up_);
-  OrientedBox box = FitUprightBox(points, plane->normal);
+  const Eigen::Vector3d& up = plane ? plane->normal : *up_;
+  OrientedBox box = FitUprightBox(WithUnseenBack(points, up), up);
+  if (!plane) return box;
   const Eigen::Vector3d center = box.T_world_box.translation;
   const double height = plane->SignedDistance(center);
   const double bottom = height - box.half_size.z();

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "semslam/dense/map_cloud.h"
 #include "semslam/dense/voxel_index.h"
 #include "semslam/geometry/oriented_box.h"
 #include "semslam/geometry/plane.h"
@@ -15,14 +16,14 @@
 
 namespace semslam {
 
-// Finds what things stand on. The world is the first camera's frame: up is the normal of the
-// largest plane among those that a camera held level within 60 degrees sees as level.
+// Finds what things stand on, and their boxes. The world is the first camera's frame, up what
+// CommonUpNormal says.
 class SupportFinder {
  public:
   // The arguments must outlive this object.
-  SupportFinder(const VoxelIndex& index, const Segmentation& segmentation);
+  SupportFinder(const MapCloud& cloud, const VoxelIndex& index, const Segmentation& segmentation);
 
-  // Nothing if no level plane was found.
+  // Nothing if the map has nothing level.
   const std::optional<Eigen::Vector3d>& up() const { return up_; }
 
   // The segment below or beside the lowest points of a thing that most of them touch; 0 if there
@@ -30,8 +31,8 @@ class SupportFinder {
   SegmentId FindSupport(std::span<const Eigen::Vector3d> points,
                         std::span<const SegmentId> own) const;
 
-  // Upright if up is known, and down to the support if that is a level plane; else along the
-  // principal directions.
+  // Upright if up is known, down to the support if that is a level plane, and whole where only the
+  // front of a round thing was seen; else along the principal directions.
   OrientedBox FitBox(std::span<const Eigen::Vector3d> points, SegmentId support) const;
 
  private:

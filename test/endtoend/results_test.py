@@ -89,7 +89,8 @@ class ResultsTest(EndToEndTest):
         self.assertEqual(list(formats.read_pcd(self.first / "semantic_map.pcd")),
                          ["x", "y", "z", "rgba", "label"])
         self.assertLessEqual({"x", "y", "z", "red", "green", "blue", "label", "segment", "object",
-                              "confidence"}, set(formats.read_ply(self.first / "semantic_map.ply")))
+                              "confidence", "entropy"},
+                             set(formats.read_ply(self.first / "semantic_map.ply")))
 
     def test_pcd_and_ply_have_the_same_labels_segments_and_colours(self):
         ply = formats.read_ply(self.first / "semantic_map.ply")
@@ -136,6 +137,7 @@ class ResultsTest(EndToEndTest):
                 self.assertEqual(item["class"], names[item["label"]])
                 self.assertEqual(item["num_points"], len(points))
                 self.assertTrue(0 < item["confidence"] <= 1)
+                self.assertTrue(0 <= item["entropy"] < 1)
                 self.assertGreater(item["num_views"], 0)
                 mean = [math.fsum(axis) / len(points) for axis in zip(*points)]
                 for value, expected in zip(item["centroid"], mean):

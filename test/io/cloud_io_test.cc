@@ -32,6 +32,7 @@ struct Sample {
   std::vector<std::uint32_t> segments;
   std::vector<std::uint32_t> objects;
   std::vector<float> confidences;
+  std::vector<float> entropies;
 
   CloudView View() const {
     return {.positions = positions,
@@ -40,7 +41,8 @@ struct Sample {
             .labels = labels,
             .segments = segments,
             .objects = objects,
-            .confidences = confidences};
+            .confidences = confidences,
+            .entropies = entropies};
   }
 };
 
@@ -57,6 +59,7 @@ Sample MakeSample(std::size_t size) {
     sample.segments.push_back(random.Index(4000000000U));
     sample.objects.push_back(random.Index(100));
     sample.confidences.push_back(static_cast<float>(random.Uniform()));
+    sample.entropies.push_back(static_cast<float>(random.Uniform()));
   }
   return sample;
 }
@@ -116,7 +119,7 @@ TEST_F(CloudIoTest, PclFindsEveryFieldUnderItsNameAndType) {
   }
   EXPECT_EQ(fields,
             "x:f y:f z:f rgba:u normal_x:f normal_y:f normal_z:f label:u segment:u object:u "
-            "confidence:f ");
+            "confidence:f entropy:f ");
   EXPECT_EQ(cloud.width, sample_.positions.size());
   EXPECT_EQ(cloud.height, 1u);
 }
@@ -130,6 +133,7 @@ TEST_F(CloudIoTest, PclReadsTheValuesOfItsUnknownFields) {
     EXPECT_EQ(cloud.at<std::uint32_t>(i, cloud.fields[8].offset), sample_.segments[i]);
     EXPECT_EQ(cloud.at<std::uint32_t>(i, cloud.fields[9].offset), sample_.objects[i]);
     EXPECT_EQ(cloud.at<float>(i, cloud.fields[10].offset), sample_.confidences[i]);
+    EXPECT_EQ(cloud.at<float>(i, cloud.fields[11].offset), sample_.entropies[i]);
   }
 }
 
@@ -154,7 +158,8 @@ TEST_F(CloudIoTest, PclReadsThePlyFileWithAllItsColumns) {
   ASSERT_EQ(pcl::PLYReader().read(path_, raw), 0);
   std::string names;
   for (const auto& field : raw.fields) names += field.name + ' ';
-  EXPECT_EQ(names, "x y z normal_x normal_y normal_z rgb label segment object confidence ");
+  EXPECT_EQ(names,
+            "x y z normal_x normal_y normal_z rgb label segment object confidence entropy ");
   pcl::PointCloud<pcl::PointXYZRGBL> cloud;
   pcl::fromPCLPointCloud2(raw, cloud);
   ASSERT_EQ(cloud.size(), sample_.positions.size());

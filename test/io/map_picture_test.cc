@@ -227,17 +227,5 @@ TEST(PointRenderer, FitsThePointsIntoThePicture) {
   EXPECT_TRUE(used.sizes().x() > 170 || used.sizes().y() > 125) << used.sizes().transpose();
 }
 
-TEST(PointRenderer, FindsTheNormalOfTheLargestLevelSurface) {
-  const Eigen::Vector3f desk = Eigen::Vector3f(0.1F, -0.8F, -0.5F).normalized();
-  std::vector<Eigen::Vector3f> normals(500, desk);
-  normals.insert(normals.end(), 2000, Eigen::Vector3f(0, 0, -1));  // A wall: 90 degrees off.
-  normals.insert(normals.end(), 300, Eigen::Vector3f(0, -1, 0));   // A smaller surface.
-  normals.insert(normals.end(), 100, Eigen::Vector3f::Constant(NAN));
-  const std::optional<Eigen::Vector3f> up = CommonUpNormal(normals, {0, -1, 0});
-  ASSERT_TRUE(up);
-  EXPECT_LT((*up - desk).norm(), 1e-3F);
-  EXPECT_FALSE(CommonUpNormal({}, {0, -1, 0}));
-}
-
 }  // namespace
 }  // namespace semslam

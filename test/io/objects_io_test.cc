@@ -30,6 +30,7 @@ TEST(ObjectsIo, WritesAllThatIsKnownOfAnObject) {
   object.id = 3;
   object.label = 7;
   object.confidence = 0.75;
+  object.entropy = 0.25;
   object.num_views = 12;
   object.num_points = 3456;
   object.centroid = {1, 2, 3};
@@ -42,6 +43,7 @@ TEST(ObjectsIo, WritesAllThatIsKnownOfAnObject) {
   EXPECT_EQ(written["label"], 7);
   EXPECT_EQ(written["class"], "keyboard");
   EXPECT_EQ(written["confidence"], 0.75);
+  EXPECT_EQ(written["entropy"], 0.25);
   EXPECT_EQ(written["num_views"], 12);
   EXPECT_EQ(written["num_points"], 3456);
   EXPECT_EQ(written["centroid"], nlohmann::json({1.0, 2.0, 3.0}));

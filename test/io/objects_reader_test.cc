@@ -22,6 +22,7 @@ ObjectRecord SomeObject() {
   object.id = 3;
   object.label = 7;
   object.confidence = 0.75;
+  object.entropy = 0.25;
   object.num_views = 12;
   object.num_points = 3456;
   object.centroid = {1, 2, 3};
@@ -45,6 +46,7 @@ TEST(ObjectsReader, ReadsWhatWasWritten) {
   EXPECT_EQ(object.id, expected.id);
   EXPECT_EQ(object.label, expected.label);
   EXPECT_EQ(object.confidence, expected.confidence);
+  EXPECT_EQ(object.entropy, expected.entropy);
   EXPECT_EQ(object.num_views, expected.num_views);
   EXPECT_EQ(object.num_points, expected.num_points);
   EXPECT_EQ(object.centroid, expected.centroid);
@@ -67,7 +69,7 @@ TEST(ObjectsReader, NamesTheFieldThatIsWrong) {
     return InputErrorOf([&] { ReadObjects(path); });
   };
   EXPECT_THAT(error_with("{", "["), HasSubstr("objects.json: expected JSON, found an error at"));
-  EXPECT_THAT(error_with("semslam objects 2", "objects 1"), HasSubstr("format: expected semslam"));
+  EXPECT_THAT(error_with("semslam objects 3", "objects 1"), HasSubstr("format: expected semslam"));
   EXPECT_THAT(error_with("\"classes\"", "\"klasses\""), HasSubstr("classes: missing"));
   EXPECT_THAT(error_with("\"label\": 7", "\"label\": 1"), HasSubstr("classes[1].label: expected"));
   EXPECT_THAT(error_with("255", "256"), HasSubstr("classes[0].color_rgb: expected values"));

@@ -49,6 +49,7 @@ TEST_F(PlyReaderTest, ReadsBackAllThatIsWritten) {
   const std::vector<std::uint32_t> segments = {7, 8};
   const std::vector<std::uint32_t> objects = {0, 3};
   const std::vector<float> confidences = {0, 0.25F};
+  const std::vector<float> entropies = {1, 0.5F};
   const std::filesystem::path path = folder_.path() / "cloud.ply";
   WritePly(path, {.positions = positions,
                   .colors = colors,
@@ -56,7 +57,8 @@ TEST_F(PlyReaderTest, ReadsBackAllThatIsWritten) {
                   .labels = labels,
                   .segments = segments,
                   .objects = objects,
-                  .confidences = confidences});
+                  .confidences = confidences,
+                  .entropies = entropies});
   const CloudColumns cloud = ReadPly(path);
   EXPECT_EQ(cloud.positions, positions);
   EXPECT_EQ(cloud.colors, colors);
@@ -65,6 +67,7 @@ TEST_F(PlyReaderTest, ReadsBackAllThatIsWritten) {
   EXPECT_EQ(cloud.segments, segments);
   EXPECT_EQ(cloud.objects, objects);
   EXPECT_EQ(cloud.confidences, confidences);
+  EXPECT_EQ(cloud.entropies, entropies);
 }
 
 TEST_F(PlyReaderTest, ReadsTextWithOtherPropertiesAndElements) {

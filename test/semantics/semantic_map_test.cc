@@ -222,6 +222,23 @@ TEST(BuildSemanticMap, BelievesTheOnlyViewIfItIsSure) {
   }
 }
 
+TEST(BuildSemanticMap, TellsBackgroundFromUnknown) {
+  const auto judge_after = [](int num_views) {
+    Desk desk({kCupBox});
+    for (int i = 0; i < num_views; ++i) desk.AddKeyframe(ViewFrom(i % 4), {});
+    const SemanticMap map = desk.Fuse();
+    const auto cup = std::find(map.segment_of_point.begin(), map.segment_of_point.end(), 3U) -
+                     map.segment_of_point.begin();
+    return std::pair(map.confidence_of_point[static_cast<std::size_t>(cup)],
+                     map.entropy_of_point[static_cast<std::size_t>(cup)]);
+  };
+  const auto [little_confidence, much_entropy] = judge_after(1);
+  EXPECT_EQ(little_confidence, 0) << "unknown";
+  const auto [confidence, entropy] = judge_after(12);
+  EXPECT_NEAR(confidence, 2.4 / 3.0, 1e-4) << "12 views of 0.2 against 0.6";
+  EXPECT_LT(entropy, much_entropy);
+}
+
 TEST(BuildSemanticMap, AveragesTheDistributionOfConfusedClasses) {
   Desk desk({{{-0.2, 0.0, 1.2}, {0.2, 0.3, 1.25}}});
   for (int i = 0; i < 4; ++i) {

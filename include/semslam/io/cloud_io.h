@@ -23,7 +23,8 @@ struct CloudView {
   std::span<const std::uint32_t> labels = {};     // Class id, or whatever the file is about.
   std::span<const std::uint32_t> segments = {};   // Segment id.
   std::span<const std::uint32_t> objects = {};    // Object id.
-  std::span<const float> confidences = {};        // In [0, 1].
+  std::span<const float> confidences = {};        // Of the label, in [0, 1].
+  std::span<const float> entropies = {};          // In [0, 1]: 0 sure, 1 nothing is known.
 };
 
 // The columns of a file, each empty if the file has none of it.
@@ -35,6 +36,7 @@ struct CloudColumns {
   std::vector<std::uint32_t> segments;
   std::vector<std::uint32_t> objects;
   std::vector<float> confidences;
+  std::vector<float> entropies;
 
   CloudView View() const {
     return {.positions = positions,
@@ -43,18 +45,19 @@ struct CloudColumns {
             .labels = labels,
             .segments = segments,
             .objects = objects,
-            .confidences = confidences};
+            .confidences = confidences,
+            .entropies = entropies};
   }
 };
 
 // Writes a binary-compressed PCD file with the fields x y z, rgba (alpha 255), normal_x normal_y
-// normal_z, label, segment, object, confidence, as far as given: so XYZRGBA, XYZL and XYZRGBL for
-// PCL, CloudCompare, MeshLab and Open3D. It holds at most 3.7 GB of values.
+// normal_z, label, segment, object, confidence, entropy, as far as given: so XYZRGBA, XYZL and
+// XYZRGBL for PCL, CloudCompare, MeshLab and Open3D. It holds at most 3.7 GB of values.
 // Throws InputError.
 void WritePcd(const std::filesystem::path& path, const CloudView& cloud);
 
 // Writes a binary PLY file with the properties x y z, nx ny nz, red green blue, label, segment,
-// object, confidence, as far as given. Throws InputError.
+// object, confidence, entropy, as far as given. Throws InputError.
 void WritePly(const std::filesystem::path& path, const CloudView& cloud);
 
 // Reads the fields x y z, rgb or rgba, normal_x normal_y normal_z and label of a PCD file (ascii,

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-#include <span>
-
 #include <Eigen/Core>
 
 #include "semslam/io/map_files.h"
@@ -22,10 +19,5 @@ struct LevelFrame {
 LevelFrame FindLevelFrame(const LabelledMapView& map);
 // The level frame with this upwards (of unit length).
 LevelFrame LevelFrameWithUp(const Eigen::Vector3d& up);
-
-// The normal that most of the points have, among those within 60 degrees of `about_up`. Nothing if
-// no such normal is common.
-std::optional<Eigen::Vector3f> CommonUpNormal(std::span<const Eigen::Vector3f> normals,
-                                              const Eigen::Vector3f& about_up);
 
 }  // namespace semslam

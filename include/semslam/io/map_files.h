@@ -34,7 +34,7 @@ std::vector<Rgb> SemanticColors(const LabelledMapView& map);
 //   global_color.pcd    XYZRGBA
 //   segmentation.pcd    XYZL, the label is the segment
 //   semantic_map.pcd    XYZRGBL, colour and label of the class
-//   semantic_map.ply    the same with normal, segment, object and confidence
+//   semantic_map.ply    the same with normal, segment, object, confidence and entropy
 //   objects.json
 //   semantic_map_top.png, semantic_map_view.png
 // each complete or not at all. Throws InputError.

@@ -32,6 +32,7 @@ struct ObjectRecord {
   std::uint32_t id = 0;     // From 1, as in the object column of the semantic map's files.
   std::uint32_t label = 0;  // Of its class.
   double confidence = 0;    // Of its class, in [0, 1].
+  double entropy = 0;       // Of its distribution over classes: 0 sure, 1 nothing is known.
   std::uint64_t num_views = 0;
   std::uint64_t num_points = 0;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres.
@@ -43,8 +44,8 @@ struct ObjectRecord {
 };
 
 // Writes objects.json: units, frame, class table, and the objects in the given order, each with id,
-// class (label and name), confidence, num_views, num_points, centroid, oriented box (centre,
-// rotation as quaternion x y z w, size along the box's axes), and what it stands on.
+// class (label and name), confidence, entropy, num_views, num_points, centroid, oriented box
+// (centre, rotation as quaternion x y z w, size along the box's axes), and what it stands on.
 // docs/objects.schema.json describes it. Throws InputError.
 void WriteObjects(const std::filesystem::path& path,
                   const std::vector<ClassRecord>& classes,

@@ -24,7 +24,8 @@ using ObjectId = std::uint32_t;  // From 1; 0: no object.
 struct SemanticObject {
   ObjectId id = 0;
   int class_id = kNoClass;
-  double confidence = 0;        // Share of the evidence that is for its class, in [0, 1].
+  double confidence = 0;        // Probability of its class, in [0, 1].
+  double entropy = 1;           // Of its distribution over classes: 0 sure, 1 nothing is known.
   std::uint32_t num_views = 0;  // Keyframes in which the detector saw it.
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  // World, metres; mean of its points.
   // World. Of what stands on a level plane: upright, and down to the plane.
@@ -41,7 +42,8 @@ struct SemanticObject {
 struct SemanticMap {
   std::vector<SegmentId> segment_of_point;
   std::vector<int> class_of_point;         // kNoClass: background or unknown.
-  std::vector<float> confidence_of_point;  // Of the class; 0 without one.
+  std::vector<float> confidence_of_point;  // Of the class, or of being background; 0: unknown.
+  std::vector<float> entropy_of_point;     // Of its object's or segment's distribution, in [0, 1].
   std::vector<ObjectId> object_of_point;   // 0: none.
   std::vector<SemanticObject> objects;     // By id.
   ClassTable classes;
@@ -52,8 +54,9 @@ struct FusionOptions {
   EvidenceOptions evidence;
   double min_confidence = 0.3;    // Of a segment's class.
   std::uint32_t min_views = 2;    // Keyframes that saw it as this class (or all that saw it).
-  double min_evidence = 0.6;      // Sum over views, one sure detection being 1: a single weak
-                                  // one does not do.
+  // Evidence for not knowing: a class (or the background) needs more than that, in a sum over
+  // views with one sure detection being 1, so a single weak one does not do.
+  double min_evidence = 0.6;
   double min_shared_share = 0.5;  // Parts of one object are under one box in this share of views
   double max_part_gap = 0.04;     // and no farther apart than this, metres, or than
   double max_relative_part_gap = 0.2;  // this share of the larger one's longest side.
