@@ -42,6 +42,11 @@ DepthRange FindCoreDepth(std::vector<float>& depths) {
   return {};
 }
 
+using Patch = std::vector<std::pair<int, int>>;  // Columns and rows of cells joined in depth.
+
+// Of the largest patch: a smaller one is something else at about the same distance.
+constexpr double kMinPatch = 0.4;
+
 // Grows the foreground from the middle of a box.
 class Grower {
  public:
@@ -57,17 +62,14 @@ class Grower {
                     static_cast<std::size_t>(box.last_row - box.first_row)) {}
 
   std::vector<std::size_t> Grow() {
-    Seed();
-    for (std::size_t next = 0; next < reached_.size(); ++next) {
-      const auto [column, row] = reached_[next];
-      Spread(column, row, 1, 0);
-      Spread(column, row, -1, 0);
-      Spread(column, row, 0, 1);
-      Spread(column, row, 0, -1);
-    }
     std::vector<std::size_t> cells;
-    cells.reserve(reached_.size());
-    for (const auto& [column, row] : reached_) cells.push_back(image_.Cell(column, row));
+    const std::vector<Patch> patches = GrowPatches();
+    std::size_t largest = 0;
+    for (const Patch& patch : patches) largest = std::max(largest, patch.size());
+    for (const Patch& patch : patches) {
+      if (static_cast<double>(patch.size()) < kMinPatch * static_cast<double>(largest)) continue;
+      for (const auto& [column, row] : patch) cells.push_back(image_.Cell(column, row));
+    }
     std::sort(cells.begin(), cells.end());
     return cells;
   }
@@ -86,7 +88,25 @@ class Grower {
     reached_.emplace_back(column, row);
   }
 
-  void Seed() {
+  // One from each seed that no other patch has reached.
+  std::vector<Patch> GrowPatches() {
+    std::vector<Patch> patches;
+    for (const auto& [column, row] : Seeds()) {
+      reached_.clear();
+      Reach(column, row);
+      for (std::size_t next = 0; next < reached_.size(); ++next) {
+        const auto [x, y] = reached_[next];
+        Spread(x, y, 1, 0);
+        Spread(x, y, -1, 0);
+        Spread(x, y, 0, 1);
+        Spread(x, y, 0, -1);
+      }
+      if (!reached_.empty()) patches.push_back(reached_);
+    }
+    return patches;
+  }
+
+  Patch Seeds() const {
     const CellRange middle = box_.Middle(options_.core_share);
     std::vector<float> depths;
     const auto for_each = [&](const auto& visit) {
@@ -98,11 +118,13 @@ class Grower {
       }
     };
     for_each([&](int, int, float z) { depths.push_back(z); });
-    if (depths.empty()) return;
+    Patch seeds;
+    if (depths.empty()) return seeds;
     const DepthRange core = FindCoreDepth(depths);
     for_each([&](int column, int row, float z) {
-      if (z >= core.low && z <= core.high) Reach(column, row);
+      if (z >= core.low && z <= core.high) seeds.emplace_back(column, row);
     });
+    return seeds;
   }
 
   // To the next cell with depth in a direction, if it continues the surface.
@@ -128,7 +150,7 @@ class Grower {
   const std::vector<bool>& is_barrier_;
   const EvidenceOptions& options_;
   std::vector<bool> is_reached_;  // Within the box.
-  std::vector<std::pair<int, int>> reached_;
+  Patch reached_;                 // Of the patch that is growing.
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -167,7 +168,21 @@ class KeyframeJudge {
     }
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = i + 1; j < held.size(); ++j) {
-        shared_.emplace_back(held[i], held[j]);  // The map's order: held is ascending.
+        shared_.emplace(held[i], held[j]);  // The map's order: held is ascending.
+      }
+    }
+    for (const auto& [class_id, others] : held_by_boxes_) {
+      if (class_id == detection.class_id) AddPairs(held, others, &separate_);
+    }
+    held_by_boxes_.emplace_back(detection.class_id, std::move(held));
+  }
+
+  static void AddPairs(const std::vector<SegmentId>& some,
+                       const std::vector<SegmentId>& others,
+                       std::set<SegmentPair>* pairs) {
+    for (const SegmentId a : some) {
+      for (const SegmentId b : others) {
+        if (a != b) pairs->emplace(std::min(a, b), std::max(a, b));
       }
     }
   }
@@ -205,9 +220,10 @@ class KeyframeJudge {
         if (gain.is_seen_as[c]) ++sums.num_views[c];
       }
     }
-    std::sort(shared_.begin(), shared_.end());
-    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
     for (const SegmentPair& pair : shared_) ++evidence.num_shared_boxes[pair];
+    for (const SegmentPair& pair : separate_) {
+      if (!shared_.contains(pair)) ++evidence.num_separate_boxes[pair];
+    }
   }
 
   void AddBackground(Evidence& evidence) const {
@@ -227,7 +243,9 @@ class KeyframeJudge {
   std::vector<Visibility> visibility_;        // By segment id.
   std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
   std::map<SegmentId, Gain> gains_;
-  std::vector<SegmentPair> shared_;
+  std::vector<std::pair<int, std::vector<SegmentId>>> held_by_boxes_;  // With the box's class.
+  std::set<SegmentPair> shared_;                                       // By one box.
+  std::set<SegmentPair> separate_;                                     // By two of one class.
 };
 
 }  // namespace

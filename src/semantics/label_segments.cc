@@ -24,6 +24,54 @@ std::vector<Eigen::Vector3f> PointsNear(const std::vector<Eigen::Vector3f>& poin
   return near;
 }
 
+SegmentId RootOf(SegmentId segment, const std::vector<SegmentLabel>& labels) {
+  while (labels[segment - 1].object_root != segment) segment = labels[segment - 1].object_root;
+  return segment;
+}
+
+void JoinTrees(SegmentId a, SegmentId b, std::vector<SegmentLabel>* labels) {
+  const SegmentId root_a = RootOf(a, *labels);
+  const SegmentId root_b = RootOf(b, *labels);
+  (*labels)[std::max(root_a, root_b) - 1].object_root = std::min(root_a, root_b);
+}
+
+std::int64_t EvidenceForNotKnowing(const FusionOptions& options) {
+  return std::max<std::int64_t>(1, std::llround(options.min_evidence / kEvidenceUnit));
+}
+
+void Add(const SegmentEvidence& part, SegmentEvidence* sums) {
+  const std::size_t num_classes = part.part_alpha.size();
+  sums->part_alpha.resize(num_classes);
+  sums->num_views.resize(num_classes);
+  for (std::size_t c = 0; c < num_classes; ++c) {
+    sums->part_alpha[c] += part.part_alpha[c];
+    sums->num_views[c] = std::max(sums->num_views[c], part.num_views[c]);
+  }
+  sums->background += part.background;
+}
+
+// Root, confidence, entropy and views of every object's parts, from the forest and the evidence for
+// all parts.
+void SumUpObjects(const Evidence& evidence,
+                  std::int64_t unknown,
+                  std::vector<SegmentLabel>* labels) {
+  std::map<SegmentId, SegmentEvidence> sums_of;  // By root.
+  for (SegmentId segment = 1; segment <= labels->size(); ++segment) {
+    SegmentLabel& label = (*labels)[segment - 1];
+    if (label.class_id == kNoClass) continue;
+    label.object_root = RootOf(segment, *labels);
+    Add(evidence.segments[segment - 1], &sums_of[label.object_root]);
+  }
+  for (SegmentLabel& label : *labels) {
+    if (label.class_id == kNoClass) continue;
+    const SegmentEvidence& sums = sums_of[label.object_root];
+    const Belief belief(sums.part_alpha, sums.background, unknown);
+    label.num_views = sums.num_views[static_cast<std::size_t>(label.class_id)];
+    label.confidence = belief.ProbabilityOf(label.class_id);
+    label.entropy = belief.Entropy();
+  }
+}
+
 // Works on the segments' evidence; the parts of an object are kept as a forest.
 class Labeller {
  public:
@@ -36,7 +84,7 @@ class Labeller {
         segmentation_(segmentation),
         classes_(classes),
         options_(options),
-        unknown_(std::max<std::int64_t>(1, std::llround(options.min_evidence / kEvidenceUnit))),
+        unknown_(EvidenceForNotKnowing(options)),
         labels_(segmentation.segments.size()),
         points_(segmentation.segments.size()),
         extents_(segmentation.segments.size()) {
@@ -52,7 +100,7 @@ class Labeller {
     for (SegmentId segment = 1; segment <= labels_.size(); ++segment) LabelAlone(segment);
     JoinParts();
     TakePiecesAlong();
-    SumUpObjects();
+    SumUpObjects(evidence_, unknown_, &labels_);
     return std::move(labels_);
   }
 
@@ -62,10 +110,7 @@ class Labeller {
     return evidence_.segments[segment - 1];
   }
 
-  SegmentId Root(SegmentId segment) {
-    while (LabelOf(segment).object_root != segment) segment = LabelOf(segment).object_root;
-    return segment;
-  }
+  SegmentId Root(SegmentId segment) const { return RootOf(segment, labels_); }
 
   void LabelAlone(SegmentId segment) {
     const SegmentEvidence& sums = EvidenceOf(segment);
@@ -107,18 +152,12 @@ class Labeller {
     });
   }
 
-  void Join(SegmentId a, SegmentId b) {
-    const SegmentId root_a = Root(a);
-    const SegmentId root_b = Root(b);
-    LabelOf(std::max(root_a, root_b)).object_root = std::min(root_a, root_b);
-  }
-
   void JoinParts() {
     for (const auto& [pair, num_shared] : evidence_.num_shared_boxes) {
       const int class_id = LabelOf(pair.first).class_id;
       if (class_id == kNoClass || class_id != LabelOf(pair.second).class_id) continue;
       if (ShareBoxes(pair, num_shared) && LieTogether(pair.first, pair.second)) {
-        Join(pair.first, pair.second);
+        JoinTrees(pair.first, pair.second, &labels_);
       }
     }
   }
@@ -157,32 +196,6 @@ class Labeller {
            belief.ProbabilityOf(class_id) >= options_.min_confidence;
   }
 
-  // Confidence, entropy and views of an object from all its parts.
-  void SumUpObjects() {
-    std::map<SegmentId, SegmentEvidence> sums_of;  // By root.
-    for (SegmentId segment = 1; segment <= labels_.size(); ++segment) {
-      SegmentLabel& label = LabelOf(segment);
-      if (label.class_id == kNoClass) continue;
-      label.object_root = Root(segment);
-      const SegmentEvidence& part = EvidenceOf(segment);
-      SegmentEvidence& sums = sums_of[label.object_root];
-      const auto c = static_cast<std::size_t>(label.class_id);
-      sums.part_alpha.resize(classes_.size());
-      sums.num_views.resize(classes_.size());
-      for (std::size_t i = 0; i < classes_.size(); ++i) sums.part_alpha[i] += part.part_alpha[i];
-      sums.background += part.background;
-      sums.num_views[c] = std::max(sums.num_views[c], part.num_views[c]);
-    }
-    for (SegmentLabel& label : labels_) {
-      if (label.class_id == kNoClass) continue;
-      const SegmentEvidence& sums = sums_of[label.object_root];
-      const Belief belief(sums.part_alpha, sums.background, unknown_);
-      label.num_views = sums.num_views[static_cast<std::size_t>(label.class_id)];
-      label.confidence = belief.ProbabilityOf(label.class_id);
-      label.entropy = belief.Entropy();
-    }
-  }
-
   const Evidence& evidence_;
   const Segmentation& segmentation_;
   const ClassTable& classes_;
@@ -201,6 +214,14 @@ std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
                                         const ClassTable& classes,
                                         const FusionOptions& options) {
   return Labeller(evidence, cloud, segmentation, classes, options).Run();
+}
+
+void JoinObjects(std::span<const SegmentPair> pairs,
+                 const Evidence& evidence,
+                 const FusionOptions& options,
+                 std::vector<SegmentLabel>* labels) {
+  for (const SegmentPair& pair : pairs) JoinTrees(pair.first, pair.second, labels);
+  SumUpObjects(evidence, EvidenceForNotKnowing(options), labels);
 }
 
 }  // namespace semslam

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "semslam/semantics/semantic_map.h"
@@ -26,5 +27,11 @@ std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
                                         const Segmentation& segmentation,
                                         const ClassTable& classes,
                                         const FusionOptions& options);
+
+// Makes one object of the two that each pair of segments belongs to.
+void JoinObjects(std::span<const SegmentPair> pairs,
+                 const Evidence& evidence,
+                 const FusionOptions& options,
+                 std::vector<SegmentLabel>* labels);
 
 }  // namespace semslam

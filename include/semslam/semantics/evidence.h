@@ -64,6 +64,8 @@ struct Evidence {
   std::vector<SegmentEvidence> segments;  // segments[i] belongs to segment i + 1.
   // In how many keyframes two segments belonged to the foreground of one box.
   std::map<SegmentPair, std::uint32_t> num_shared_boxes;
+  // In how many two boxes of one class held one segment each, and no box both.
+  std::map<SegmentPair, std::uint32_t> num_separate_boxes;
 };
 
 // What the detections of all keyframes say about the segments of the map. In every keyframe, each
