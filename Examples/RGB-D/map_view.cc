@@ -49,6 +49,7 @@ MapView::MapView(const semslam::PointCloudMapping::Result& map) {
                  .objects = map.semantics.object_of_point,
                  .confidences = map.semantics.confidence_of_point,
                  .entropies = map.semantics.entropy_of_point};
+  view_.segments_by_geometry = map.segmentation.segment_of_point;
   view_.point_size = map.cloud.voxel_size;
   view_.classes = ClassesOfInterest(map.semantics.classes);
   view_.objects = ToRecords(map.semantics.objects);

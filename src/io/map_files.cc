@@ -38,7 +38,10 @@ std::vector<Rgb> SemanticColors(const LabelledMapView& map) {
 void WriteMapFiles(const std::filesystem::path& folder, const LabelledMapView& map) {
   const CloudView& cloud = map.cloud;
   WritePcd(folder / "global_color.pcd", {.positions = cloud.positions, .colors = cloud.colors});
-  WritePcd(folder / "segmentation.pcd", {.positions = cloud.positions, .labels = cloud.segments});
+  WritePcd(
+      folder / "segmentation.pcd",
+      {.positions = cloud.positions,
+       .labels = map.segments_by_geometry.empty() ? cloud.segments : map.segments_by_geometry});
 
   const std::vector<Rgb> semantic_colors = SemanticColors(map);
   WritePcd(folder / "semantic_map.pcd",

@@ -14,8 +14,9 @@ namespace semslam {
 struct SegmentImage {
   int columns = 0;
   int rows = 0;
-  std::vector<SegmentId> segments;  // Row by row.
-  std::vector<float> depth;         // Metres; 0: none.
+  std::vector<SegmentId> segments;    // Row by row.
+  std::vector<float> depth;           // Metres; 0: none.
+  std::vector<std::uint32_t> points;  // Index in the map's cloud; only where there is a segment.
 
   std::size_t Cell(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

@@ -11,20 +11,14 @@
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
 
+#include "semantics/box_claims.h"
 #include "semantics/box_foreground.h"
+#include "semantics/keyframe_view.h"
 
 namespace semslam {
 namespace {
 
-constexpr double kMinCosine = 0.2;  // Of slanted views, when pixels are turned into areas.
-
 std::int64_t ToUnits(double value) { return std::llround(value / kEvidenceUnit); }
-
-// How much of a segment one keyframe sees.
-struct Visibility {
-  std::uint32_t num_pixels = 0;  // Grid cells.
-  double area = 0;               // Square metres of surface.
-};
 
 // Pixels of a segment inside one box.
 struct Overlap {
@@ -56,18 +50,17 @@ class KeyframeJudge {
         segmentation_(segmentation),
         classes_(classes),
         options_(options),
-        visibility_(segmentation.segments.size() + 1),
-        largest_inside_share_(segmentation.segments.size() + 1) {
-    DrawSegments(index);
-  }
+        view_(DrawSegments(keyframe, index, segmentation)),
+        largest_inside_share_(segmentation.segments.size() + 1) {}
 
   void AddTo(Evidence& evidence) {
     for (const Detection& detection : keyframe_.detections) JudgeBox(detection);
-    for (SegmentId segment = 1; segment < visibility_.size(); ++segment) {
+    for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (IsSeen(segment, options_.min_visible_share)) ++evidence.segments[segment - 1].num_seen;
     }
     AddBest(evidence);
     AddBackground(evidence);
+    AddParted(evidence);
   }
 
  private:
@@ -79,33 +72,8 @@ class KeyframeJudge {
 
   const Segment& SegmentOf(SegmentId id) const { return segmentation_.segments[id - 1]; }
 
-  void DrawSegments(const VoxelIndex& index) {
-    const KeyframeCloud& cloud = *keyframe_.cloud;
-    image_.columns = cloud.grid_columns();
-    image_.rows = cloud.grid_rows();
-    const std::size_t num_cells =
-        static_cast<std::size_t>(image_.columns) * static_cast<std::size_t>(image_.rows);
-    image_.segments.assign(num_cells, 0);
-    image_.depth.assign(num_cells, 0.0F);
-    const double cell_angle = static_cast<double>(cloud.pixel_angle()) * cloud.stride();
-    cloud.ForEach([&](const KeyframePoint& point) {
-      const std::size_t cell =
-          image_.Cell(point.column / cloud.stride(), point.row / cloud.stride());
-      image_.depth[cell] = point.p_camera.z();
-      const auto found = index.Find(keyframe_.T_world_camera * point.p_camera.cast<double>());
-      if (!found) return;
-      const SegmentId segment = segmentation_.segment_of_point[*found];
-      if (segment == 0) return;
-      image_.segments[cell] = segment;
-      const double side = cell_angle * point.p_camera.z();
-      const double cosine = -point.n_camera.dot(point.p_camera.normalized());
-      visibility_[segment].area += side * side / std::max(cosine, kMinCosine);
-      ++visibility_[segment].num_pixels;
-    });
-  }
-
   bool IsSeen(SegmentId segment, double min_share) const {
-    const Visibility& visible = visibility_[segment];
+    const Visibility& visible = view_.visibility[segment];
     return visible.num_pixels >= options_.min_pixels &&
            visible.area >= min_share * SegmentOf(segment).area;
   }
@@ -118,27 +86,20 @@ class KeyframeJudge {
 
   std::map<SegmentId, Overlap> MeasureOverlaps(const Detection& detection,
                                                const CellRange& range,
-                                               std::size_t& num_foreground) const {
-    std::vector<bool> is_barrier(visibility_.size(), false);
-    for (SegmentId id = 1; id < is_barrier.size(); ++id) {
-      is_barrier[id] =
-          SegmentOf(id).is_structural && !classes_.may_be_structural(detection.class_id);
-    }
+                                               const std::vector<std::size_t>& foreground) const {
     std::map<SegmentId, Overlap> overlaps;
     for (int row = range.first_row; row < range.last_row; ++row) {
       for (int column = range.first_column; column < range.last_column; ++column) {
-        const SegmentId segment = image_.segments[image_.Cell(column, row)];
+        const SegmentId segment = view_.image.segments[view_.image.Cell(column, row)];
         if (segment != 0) ++overlaps[segment].num_inside;
       }
     }
-    const auto foreground = FindForeground(image_, range, is_barrier, options_);
-    num_foreground = foreground.size();
     const int stride = keyframe_.cloud->stride();
     for (const std::size_t cell : foreground) {
-      if (image_.segments[cell] == 0) continue;
-      Overlap& overlap = overlaps[image_.segments[cell]];
-      const int column = static_cast<int>(cell % static_cast<std::size_t>(image_.columns));
-      const int row = static_cast<int>(cell / static_cast<std::size_t>(image_.columns));
+      if (view_.image.segments[cell] == 0) continue;
+      Overlap& overlap = overlaps[view_.image.segments[cell]];
+      const int column = static_cast<int>(cell % static_cast<std::size_t>(view_.image.columns));
+      const int row = static_cast<int>(cell / static_cast<std::size_t>(view_.image.columns));
       ++overlap.num_foreground;
       overlap.border_factor += BorderFactor(detection.box, column * stride, row * stride, options_);
     }
@@ -146,18 +107,22 @@ class KeyframeJudge {
   }
 
   void JudgeBox(const Detection& detection) {
-    const CellRange range =
-        CellRange::Of(detection.box, keyframe_.cloud->stride(), image_.columns, image_.rows);
+    const CellRange range = CellRange::Of(detection.box, keyframe_.cloud->stride(),
+                                          view_.image.columns, view_.image.rows);
     if (range.empty()) return;
-    std::size_t num_foreground = 0;
+    const std::vector<std::size_t> foreground = FindForeground(
+        view_.image, range, FindBarriers(segmentation_, classes_, detection.class_id), options_);
+    for (BoxClaim& claim : ClaimsOf(foreground, view_, options_.min_pixels)) {
+      claims_.push_back(std::move(claim));
+    }
     std::vector<SegmentId> held;
-    for (const auto& [segment, overlap] : MeasureOverlaps(detection, range, num_foreground)) {
+    for (const auto& [segment, overlap] : MeasureOverlaps(detection, range, foreground)) {
       const double inside_share =
-          double(overlap.num_inside) / double(visibility_[segment].num_pixels);
+          double(overlap.num_inside) / double(view_.visibility[segment].num_pixels);
       largest_inside_share_[segment] = std::max(largest_inside_share_[segment], inside_share);
       if (inside_share < options_.min_inside_share) continue;
       if (!IsSeen(segment, options_.min_visible_share)) continue;
-      const double filled_share = double(overlap.num_foreground) / double(num_foreground);
+      const double filled_share = double(overlap.num_foreground) / double(foreground.size());
       AddGain(segment, detection, inside_share, overlap, filled_share >= options_.min_filled_share);
       // Half or more of it is the object's, or it is seen beside it only where the box is: a foot
       // whose neck is hidden.
@@ -228,21 +193,29 @@ class KeyframeJudge {
 
   void AddBackground(Evidence& evidence) const {
     constexpr double kInNoBox = 0.2;  // Share of the segment inside the best box.
-    for (SegmentId segment = 1; segment < visibility_.size(); ++segment) {
+    for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (largest_inside_share_[segment] >= kInNoBox) continue;
       if (!IsSeen(segment, options_.min_visible_share_background)) continue;
       evidence.segments[segment - 1].background += ToUnits(options_.background_weight);
     }
   }
 
+  void AddParted(Evidence& evidence) const {
+    std::set<SegmentId> parted;
+    for (const auto& [first, second] : FindRivals(claims_, view_)) {
+      parted.insert(claims_[first].segment);
+    }
+    for (const SegmentId segment : parted) ++evidence.segments[segment - 1].num_parted;
+  }
+
   const LabelledKeyframe& keyframe_;
   const Segmentation& segmentation_;
   const ClassTable& classes_;
   const EvidenceOptions& options_;
-  SegmentImage image_;
-  std::vector<Visibility> visibility_;        // By segment id.
+  const KeyframeView view_;
   std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
   std::map<SegmentId, Gain> gains_;
+  std::vector<BoxClaim> claims_;                                       // Of all boxes.
   std::vector<std::pair<int, std::vector<SegmentId>>> held_by_boxes_;  // With the box's class.
   std::set<SegmentPair> shared_;                                       // By one box.
   std::set<SegmentPair> separate_;                                     // By two of one class.
@@ -279,10 +252,7 @@ Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
   nothing.num_views.assign(classes.size(), 0);
   evidence.segments.assign(segmentation.segments.size(), nothing);
   for (const LabelledKeyframe& keyframe : keyframes) {
-    SEMSLAM_CHECK(keyframe.cloud != nullptr);
-    LabelledKeyframe usable = keyframe;
-    usable.detections = Sanitise(std::move(usable.detections), classes.size(),
-                                 keyframe.cloud->image_width(), keyframe.cloud->image_height());
+    const LabelledKeyframe usable = Usable(keyframe, classes);
     KeyframeJudge(usable, index, segmentation, classes, options).AddTo(evidence);
   }
   return evidence;

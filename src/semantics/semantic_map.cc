@@ -14,10 +14,13 @@
 
 #include "semantics/duplicates.h"
 #include "semantics/label_segments.h"
+#include "semantics/split_segments.h"
 #include "semantics/support.h"
 
 namespace semslam {
 namespace {
+
+constexpr int kMaxThingsInASegment = 4;
 
 // Segments with one root are parts of one object.
 std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
@@ -128,6 +131,33 @@ void LabelPoints(const std::vector<SegmentLabel>& labels,
   }
 }
 
+SemanticMap LabelMap(const MapCloud& cloud,
+                     const VoxelIndex& index,
+                     const Segmentation& segmentation,
+                     const Evidence& evidence,
+                     const ClassTable& classes,
+                     const FusionOptions& options,
+                     const SemanticMap* previous) {
+  std::vector<SegmentLabel> labels = LabelSegments(evidence, cloud, segmentation, classes, options);
+  SemanticMap map;
+  map.classes = classes;
+  map.segment_of_point = segmentation.segment_of_point;
+  map.objects = MakeObjects(labels, cloud, index, segmentation);
+  const std::vector<SegmentPair> duplicates =
+      FindDuplicates(map.objects, cloud, segmentation, evidence);
+  if (!duplicates.empty()) {
+    JoinObjects(duplicates, evidence, options, &labels);
+    map.objects = MakeObjects(labels, cloud, index, segmentation);
+  }
+  NumberObjects(previous, options.max_object_shift, map);
+  const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());
+  for (SemanticObject& object : map.objects) {
+    object.supporting_object = object_of_segment[object.supporting_segment];
+  }
+  LabelPoints(labels, object_of_segment, map);
+  return map;
+}
+
 }  // namespace
 
 void FusionOptions::Validate() const {
@@ -152,26 +182,17 @@ SemanticMap BuildSemanticMap(const MapCloud& cloud,
   options.Validate();
   SEMSLAM_CHECK(segmentation.segment_of_point.size() == cloud.size())
       << segmentation.segment_of_point.size() << " labels, " << cloud.size() << " points";
-  const Evidence evidence =
-      CollectEvidence(keyframes, index, segmentation, classes, options.evidence);
-  std::vector<SegmentLabel> labels = LabelSegments(evidence, cloud, segmentation, classes, options);
-  SemanticMap map;
-  map.classes = classes;
-  map.segment_of_point = segmentation.segment_of_point;
-  map.objects = MakeObjects(labels, cloud, index, segmentation);
-  const std::vector<SegmentPair> duplicates =
-      FindDuplicates(map.objects, cloud, segmentation, evidence);
-  if (!duplicates.empty()) {
-    JoinObjects(duplicates, evidence, options, &labels);
-    map.objects = MakeObjects(labels, cloud, index, segmentation);
+  Evidence evidence = CollectEvidence(keyframes, index, segmentation, classes, options.evidence);
+  std::optional<Segmentation> parted;  // Instead of the segmentation, if there are mixed segments.
+  for (int round = 0; round < kMaxThingsInASegment - 1; ++round) {
+    auto further = SplitMixedSegments(cloud, index, parted ? *parted : segmentation, keyframes,
+                                      evidence, classes, options.evidence);
+    if (!further) break;
+    parted = std::move(further);
+    evidence = CollectEvidence(keyframes, index, *parted, classes, options.evidence);
   }
-  NumberObjects(previous, options.max_object_shift, map);
-  const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());
-  for (SemanticObject& object : map.objects) {
-    object.supporting_object = object_of_segment[object.supporting_segment];
-  }
-  LabelPoints(labels, object_of_segment, map);
-  return map;
+  return LabelMap(cloud, index, parted ? *parted : segmentation, evidence, classes, options,
+                  previous);
 }
 
 }  // namespace semslam

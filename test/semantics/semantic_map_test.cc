@@ -59,7 +59,9 @@ class Desk {
     return box;
   }
 
-  // Segments can be given other numbers: merge_into[i] for segment i + 1.
+  // All things are one segment, 3.
+  void JoinThings() { num_segments_ = 3; }
+
   SemanticMap Fuse(const FusionOptions& options = {}, const SemanticMap* previous = nullptr) {
     VoxelMap voxels({});
     for (const LabelledKeyframe& keyframe : keyframes_) {
@@ -80,13 +82,16 @@ class Desk {
   }
 
   std::vector<LabelledKeyframe>& keyframes() { return keyframes_; }
+  const MapCloud& cloud() const { return cloud_; }  // Of the last Fuse.
   const std::vector<Box>& boxes() const { return boxes_; }
 
  private:
   SegmentId SegmentAt(const Eigen::Vector3d& p_world) const {
     for (std::size_t i = boxes_.size(); i-- > 0;) {
       const Eigen::Vector3d outside = (boxes_[i].low - p_world).cwiseMax(p_world - boxes_[i].high);
-      if (outside.maxCoeff() < 0.006) return static_cast<SegmentId>(i + 1);
+      if (outside.maxCoeff() < 0.006) {
+        return static_cast<SegmentId>(std::min(i + 1, num_segments_));
+      }
     }
     return 0;
   }
@@ -99,7 +104,7 @@ class Desk {
       segmentation.segment_of_point.push_back(segment);
       if (segment != 0) points[segment - 1].push_back(position.cast<double>());
     }
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(boxes_.size(), num_segments_); ++i) {
       Segment segment;
       segment.id = static_cast<SegmentId>(i + 1);
       segment.num_points = points[i].size();
@@ -112,6 +117,7 @@ class Desk {
   }
 
   std::vector<Box> boxes_;
+  std::size_t num_segments_ = 1000;
   std::vector<LabelledKeyframe> keyframes_;
   MapCloud cloud_;
 };
@@ -276,6 +282,94 @@ TEST(BuildSemanticMap, KeepsTwoThingsOfOneClassApart) {
                                    Seen(kMonitor, 0.8F, desk.BoxAround(4, ViewFrom(i), 3))});
   }
   EXPECT_EQ(desk.Fuse().objects.size(), 2U);
+}
+
+const Box kLeft{{-0.32, 0.1, 1.2}, {-0.11, 0.3, 1.3}};
+const Box kMiddle{{-0.11, 0.1, 1.2}, {0.1, 0.3, 1.3}};
+const Box kRight{{0.1, 0.1, 1.2}, {0.31, 0.3, 1.3}};
+
+// Things that touch and are one segment, a box around each of `classes`.
+Desk TouchingThings(const std::vector<Box>& things, const std::vector<int>& classes) {
+  Desk desk(things);
+  for (int i = 0; i < 4; ++i) {
+    std::vector<Detection> detections;
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+      const auto thing = static_cast<SegmentId>(3 + k);
+      detections.push_back(Seen(classes[k], 0.8F, desk.BoxAround(thing, ViewFrom(i), 1)));
+    }
+    desk.AddKeyframe(ViewFrom(i), detections);
+  }
+  desk.JoinThings();
+  return desk;
+}
+
+// The share of an object's points that are on a thing.
+double ShareOn(const Box& thing, const SemanticMap& map, const SemanticObject& object, Desk& desk) {
+  double num_on = 0;
+  for (std::size_t i = 0; i < map.object_of_point.size(); ++i) {
+    if (map.object_of_point[i] != object.id) continue;
+    const float x = desk.cloud().positions[i].x();
+    if (x > thing.low.x() - 0.005 && x < thing.high.x() + 0.005) ++num_on;
+  }
+  return num_on / static_cast<double>(object.num_points);
+}
+
+TEST(BuildSemanticMap, PartsASegmentThatHoldsThingsOfTwoClasses) {
+  Desk desk = TouchingThings({kLeft, kMiddle}, {kLaptop, kMonitor});
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 2U);
+  for (const SemanticObject& object : map.objects) {
+    const Box& thing = object.class_id == kLaptop ? kLeft : kMiddle;
+    EXPECT_GT(ShareOn(thing, map, object, desk), 0.95) << object.class_id;
+    EXPECT_GT(object.num_points, 300U);
+  }
+  EXPECT_NE(map.objects[0].class_id, map.objects[1].class_id);
+  EXPECT_EQ(map.objects[0].segments, std::vector<SegmentId>{3});
+  EXPECT_EQ(map.objects[1].segments, std::vector<SegmentId>{4}) << "a new number";
+}
+
+TEST(BuildSemanticMap, PartsASegmentThatHoldsThreeThingsOfOneClass) {
+  Desk desk = TouchingThings({kLeft, kMiddle, kRight}, {kMonitor, kMonitor, kMonitor});
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 3U);
+  std::set<const Box*> found;
+  for (const SemanticObject& object : map.objects) {
+    for (const Box* thing : {&kLeft, &kMiddle, &kRight}) {
+      if (ShareOn(*thing, map, object, desk) > 0.9) found.insert(thing);
+    }
+  }
+  EXPECT_EQ(found.size(), 3U);
+  std::reverse(desk.keyframes().begin(), desk.keyframes().end());
+  for (LabelledKeyframe& keyframe : desk.keyframes()) {
+    std::reverse(keyframe.detections.begin(), keyframe.detections.end());
+  }
+  EXPECT_EQ(desk.Fuse().segment_of_point, map.segment_of_point);
+}
+
+TEST(BuildSemanticMap, LeavesAThingWholeThatHasLabelsOnIt) {
+  Desk desk({{{-0.32, 0.0, 1.2}, {0.32, 0.3, 1.3}}});
+  for (int i = 0; i < 4; ++i) {
+    const ImageBox all = desk.BoxAround(3, ViewFrom(i), 4);
+    const ImageBox left{all.min_x, all.min_y, all.min_x + 0.25F * all.width(), all.max_y};
+    const ImageBox right{all.max_x - 0.25F * all.width(), all.min_y, all.max_x, all.max_y};
+    desk.AddKeyframe(ViewFrom(i), {Seen(kCup, 0.8F, left), Seen(kCup, 0.8F, right)});
+  }
+  const SemanticMap map = desk.Fuse();
+  EXPECT_EQ(*std::max_element(map.segment_of_point.begin(), map.segment_of_point.end()), 3U);
+}
+
+TEST(BuildSemanticMap, DoesNotPartAThingThatIsSeenWholeInMostViews) {
+  Desk desk = TouchingThings({kLeft, kMiddle}, {kLaptop, kLaptop});
+  for (int i = 0; i < 12; ++i) {
+    const ImageBox left = desk.BoxAround(3, ViewFrom(i % 4), 4);
+    const ImageBox right = desk.BoxAround(4, ViewFrom(i % 4), 4);
+    desk.AddKeyframe(ViewFrom(i % 4), {Seen(kMonitor, 0.8F,
+                                            {left.min_x, std::min(left.min_y, right.min_y),
+                                             right.max_x, std::max(left.max_y, right.max_y)})});
+  }
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].class_id, kMonitor);
 }
 
 TEST(BuildSemanticMap, DoesNotDependOnTheOrderOfKeyframes) {

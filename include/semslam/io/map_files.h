@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +19,8 @@ namespace semslam {
 struct LabelledMapView {
   // Positions and colours; the rest as far as known. Ids and labels are 0 where there is none.
   CloudView cloud;
+  // The segments before boxes parted any, for segmentation.pcd. Empty: the cloud's.
+  std::span<const std::uint32_t> segments_by_geometry = {};
   double point_size = 0.01;  // Metres: the distance of neighbouring points (the voxel size).
   std::vector<ClassRecord> classes;
   std::vector<ObjectRecord> objects;
@@ -32,7 +36,7 @@ std::vector<Rgb> SemanticColors(const LabelledMapView& map);
 
 // Writes into the folder
 //   global_color.pcd    XYZRGBA
-//   segmentation.pcd    XYZL, the label is the segment
+//   segmentation.pcd    XYZL, the label is the segment, by geometry alone
 //   semantic_map.pcd    XYZRGBL, colour and label of the class
 //   semantic_map.ply    the same with normal, segment, object, confidence and entropy
 //   objects.json

@@ -54,7 +54,8 @@ struct SegmentEvidence {
                                          // pieces of an over-segmented object.
   std::vector<std::uint32_t> num_views;  // By class: keyframes whose box held the segment.
   std::int64_t background = 0;
-  std::uint32_t num_seen = 0;  // Keyframes that saw enough of it to judge.
+  std::uint32_t num_seen = 0;    // Keyframes that saw enough of it to judge.
+  std::uint32_t num_parted = 0;  // Keyframes in which two boxes claimed different parts of it.
 };
 inline constexpr double kEvidenceUnit = 1.0 / (1 << 20);
 

@@ -31,7 +31,7 @@ struct SemanticObject {
   // World. Of what stands on a level plane: upright, and down to the plane.
   OrientedBox box;
   std::size_t num_points = 0;
-  std::vector<SegmentId> segments;  // Ascending.
+  std::vector<SegmentId> segments;  // Of SemanticMap::segment_of_point, ascending.
   // What it stands on: a segment, and the object that is part of. 0: not known.
   SegmentId supporting_segment = 0;
   ObjectId supporting_object = 0;
@@ -40,6 +40,7 @@ struct SemanticObject {
 // The map with a class for every point that has one. The vectors belong to the points of the map
 // cloud by index.
 struct SemanticMap {
+  // As in the segmentation; but where boxes show that a segment holds two things it is two.
   std::vector<SegmentId> segment_of_point;
   std::vector<int> class_of_point;         // kNoClass: background or unknown.
   std::vector<float> confidence_of_point;  // Of the class, or of being background; 0: unknown.
@@ -52,8 +53,8 @@ struct SemanticMap {
 
 struct FusionOptions {
   EvidenceOptions evidence;
-  double min_confidence = 0.3;    // Of a segment's class.
-  std::uint32_t min_views = 2;    // Keyframes that saw it as this class (or all that saw it).
+  double min_confidence = 0.3;  // Of a segment's class.
+  std::uint32_t min_views = 2;  // Keyframes that saw it as this class (or all that saw it).
   // Evidence for not knowing: a class (or the background) needs more than that, in a sum over
   // views with one sure detection being 1, so a single weak one does not do.
   double min_evidence = 0.6;
@@ -64,11 +65,11 @@ struct FusionOptions {
   void Validate() const;               // Throws InputError.
 };
 
-// Gives every segment the class that the detections of all keyframes speak for, joins the segments
-// of one object, and lists the objects (section 3.3 of the paper; sums of evidence after Sunderhauf
-// et al., IROS 2017). A pure function of its arguments, independent of the order of keyframes: call
-// it again after any correction, with the keyframes' present poses. Without keyframes all points
-// are background.
+// Gives every segment the class that the detections of all keyframes speak for, parts segments that
+// hold two things, joins the segments of one thing, and lists the objects (section 3.3 of the
+// paper; sums of evidence after Sunderhauf et al., IROS 2017). A pure function of its arguments,
+// independent of the order of keyframes: call it again after any correction, with the keyframes'
+// present poses. Without keyframes all points are unknown.
 //
 // `cloud`, `index` and `segmentation` belong together. With `previous`, an object found again keeps
 // its id, new ones get ids never used before.

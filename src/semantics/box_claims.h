@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "semantics/keyframe_view.h"
+
+namespace semslam {
+
+// The part of a segment that is foreground of one box in one keyframe.
+struct BoxClaim {
+  SegmentId segment = 0;
+  std::vector<std::uint32_t> points;  // Of the map's cloud, ascending.
+};
+
+// The claims of a box with this foreground (cells of the view's image), by segment. None of fewer
+// than `min_pixels` points, for they tell nothing.
+std::vector<BoxClaim> ClaimsOf(std::span<const std::size_t> foreground,
+                               const KeyframeView& view,
+                               std::uint32_t min_pixels);
+
+// How many points two claims have in common.
+std::size_t CountCommon(const BoxClaim& a, const BoxClaim& b);
+
+// Pairs of one keyframe's claims that say that their segment is two things: they hardly overlap,
+// and what is seen of the segment is mostly theirs. (A board with things on it is not.)
+std::vector<std::pair<std::size_t, std::size_t>> FindRivals(std::span<const BoxClaim> claims,
+                                                            const KeyframeView& view);
+
+}  // namespace semslam

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "semslam/semantics/evidence.h"
+
+#include "semantics/box_foreground.h"
+
+namespace semslam {
+
+// How much of a segment one keyframe sees.
+struct Visibility {
+  std::uint32_t num_pixels = 0;  // Grid cells.
+  double area = 0;               // Square metres of surface.
+};
+
+// The map's segments as a keyframe sees them.
+struct KeyframeView {
+  SegmentImage image;
+  std::vector<Visibility> visibility;  // By segment id.
+};
+
+KeyframeView DrawSegments(const LabelledKeyframe& keyframe,
+                          const VoxelIndex& index,
+                          const Segmentation& segmentation);
+
+// Without detections that make no sense.
+LabelledKeyframe Usable(const LabelledKeyframe& keyframe, const ClassTable& classes);
+
+// By segment id: what cannot belong to a thing of the class, whatever its box holds.
+std::vector<bool> FindBarriers(const Segmentation& segmentation,
+                               const ClassTable& classes,
+                               int class_id);
+
+}  // namespace semslam
