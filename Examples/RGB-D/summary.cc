@@ -3,6 +3,8 @@
 
 #include "summary.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -38,6 +40,9 @@ void PrintSemantics(const semslam::System& system, const semslam::PointCloudMapp
   std::printf("images labelled       %zu of %zu keyframes, %.1f ms each, at most %zu waited\n",
               detector.num_done, detector.num_submitted, detector.mean_milliseconds,
               detector.longest_queue);
+  std::printf(
+      "labels fused          in %.0f ms, %.1f ms a keyframe\n", map.fusion_milliseconds,
+      map.fusion_milliseconds / static_cast<double>(std::max<std::size_t>(1, detector.num_done)));
   if (detector.num_failed > 0) {
     std::printf("images not labelled   %zu: %s\n", detector.num_failed,
                 Printable(detector.first_error).c_str());

@@ -73,6 +73,14 @@ double ArcOf(const Circle& circle, std::span<const Eigen::Vector2d> points) {
          static_cast<double>(std::count(has_points.begin(), has_points.end(), true));
 }
 
+std::vector<Eigen::Vector2d> SomeOf(std::span<const Eigen::Vector2d> points) {
+  constexpr std::size_t kMaxPoints = 500;
+  const std::size_t step = 1 + points.size() / kMaxPoints;
+  std::vector<Eigen::Vector2d> some;
+  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
 // By random triples; the same for the same points.
 std::optional<Circle> BestOfTrials(std::span<const Eigen::Vector2d> points) {
   Random random(1);
@@ -96,7 +104,7 @@ std::optional<Circle> BestOfTrials(std::span<const Eigen::Vector2d> points) {
 
 std::optional<Circle> FindRoundFootprint(std::span<const Eigen::Vector2d> points) {
   if (points.size() < kMinPoints) return std::nullopt;
-  std::optional<Circle> circle = BestOfTrials(points);
+  std::optional<Circle> circle = BestOfTrials(SomeOf(points));
   for (int i = 0; i < 2 && circle; ++i) circle = FitCircle(PointsOn(*circle, points));
   if (!IsPlausible(circle)) return std::nullopt;
   const std::vector<Eigen::Vector2d> on = PointsOn(*circle, points);

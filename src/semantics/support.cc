@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 
 #include "semslam/dense/up_direction.h"
@@ -30,6 +32,20 @@ double LowestHeight(std::span<const Eigen::Vector3d> points, const Eigen::Vector
   return *low;
 }
 
+// Those that are not higher, evenly chosen if they are many.
+std::vector<Eigen::Vector3d> LowPoints(std::span<const Eigen::Vector3d> points,
+                                       const Eigen::Vector3d& up,
+                                       double highest) {
+  constexpr std::size_t kMaxPoints = 300;
+  std::vector<Eigen::Vector3d> low;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(low),
+               [&](const Eigen::Vector3d& point) { return up.dot(point) <= highest; });
+  const std::size_t step = 1 + low.size() / kMaxPoints;
+  std::vector<Eigen::Vector3d> chosen;
+  for (std::size_t i = 0; i < low.size(); i += step) chosen.push_back(low[i]);
+  return chosen;
+}
+
 }  // namespace
 
 SupportFinder::SupportFinder(const MapCloud& cloud,
@@ -43,14 +59,14 @@ SupportFinder::SupportFinder(const MapCloud& cloud,
 SegmentId SupportFinder::FindSupport(std::span<const Eigen::Vector3d> points,
                                      std::span<const SegmentId> own) const {
   if (!up_ || points.empty()) return 0;
-  const double step = segmentation_.voxel_size;
-  const int reach = static_cast<int>(std::ceil(kReach / step));
+  // Every lookup finds what lies within one voxel around.
+  const double step = 3 * segmentation_.voxel_size;
+  const int reach = static_cast<int>(std::ceil((kReach - segmentation_.voxel_size) / step));
   const Eigen::Vector3d side = up_->unitOrthogonal();
   const Eigen::Vector3d other = up_->cross(side);
   const double highest = LowestHeight(points, *up_) + kLayer;
   std::map<SegmentId, std::size_t> num_touched;
-  for (const Eigen::Vector3d& point : points) {
-    if (up_->dot(point) > highest) continue;
+  for (const Eigen::Vector3d& point : LowPoints(points, *up_, highest)) {
     std::vector<SegmentId> touched;  // By this point; each counts once.
     for (int x = -reach; x <= reach; ++x) {
       for (int y = -reach; y <= reach; ++y) {

@@ -42,6 +42,7 @@ class ResultsTest(EndToEndTest):
                         r"tracking time +median \d+\.\d ms, p95 \d+\.\d ms",
                         r"keyframes +\d+", r"landmarks +\d+", r"map points +\d+",
                         r"segments +\d+", r"objects +\d+: ", r"images labelled +\d+ of \d+",
+                        r"labels fused +in \d+ ms, \d+\.\d ms a keyframe",
                         r"peak memory +\d+ MB", rf"files +{self.first}\n"]:
             self.assertRegex(self.summary.stdout, pattern)
 
