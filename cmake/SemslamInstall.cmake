@@ -38,6 +38,7 @@ set(semslam_packages
   "^Boost::|Boost COMPONENTS @COMPONENTS@"
   "^libjpeg-turbo::|libjpeg-turbo 2.1"
   "^liblzf::|liblzf 3.6"
+  "^protobuf::|Protobuf 3.12"
   "^spng::|spng 0.7"
   "^opencv_|OpenCV 4.5 COMPONENTS @COMPONENTS@")
 

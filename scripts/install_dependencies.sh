@@ -16,8 +16,8 @@ packages=(
   ca-certificates ccache cmake g++ make ninja-build pkg-config python3
   # Libraries of the project: Thirdparty/README.md says what each is for.
   libceres-dev libcli11-dev libeigen3-dev libembree-dev liblzf-dev libopencv-dev libopenni2-dev
-  libpcl-dev libspng-dev libsuitesparse-dev libtbb-dev libturbojpeg0-dev libyaml-cpp-dev
-  nlohmann-json3-dev
+  libpcl-dev libprotobuf-dev libspng-dev libsuitesparse-dev libtbb-dev libturbojpeg0-dev
+  libyaml-cpp-dev nlohmann-json3-dev
   # The viewer; the last two draw where there is no graphics card, and so in the tests.
   libegl-dev libglfw3-dev libimgui-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri fonts-dejavu-core
   # Tests and benchmarks

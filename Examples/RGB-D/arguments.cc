@@ -12,7 +12,7 @@
 
 #include "semslam/base/error.h"
 #include "semslam/io/detection_recorder.h"
-#include "semslam/semantics/network_options.h"
+#include "semslam/semantics/network_detector.h"
 #include "semslam/semantics/recorded_detector.h"
 
 #include "network_argument.h"
@@ -135,11 +135,12 @@ std::unique_ptr<semslam::Detector> ChosenDetector(const MappingArguments& argume
   options.min_class_score = std::min(options.min_class_score, score);
   options.nms_threshold = static_cast<float>(settings.nms_threshold);
   options.input_size = settings.input_size;
+  options.batch_size = settings.batch_size;
   options.letterbox = settings.letterbox;
   options.backend = settings.backend;
   options.target = settings.target;
-  return semslam::MakeNetworkDetector(options,
-                                      semslam::ClassTable::FromFile(names).WithInterest(interest));
+  return std::make_unique<semslam::NetworkDetector>(
+      options, semslam::ClassTable::FromFile(names).WithInterest(interest));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@
 #include "semslam/config/settings.h"
 #include "semslam/pipeline/system.h"
 #include "semslam/place/vocabulary.h"
-#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/network_detector.h"
 
 #include "measurements.h"
 #include "open_sequence.h"
@@ -104,10 +104,10 @@ std::vector<semslam::RgbdImagePtr> ReadImages(const Arguments& arguments,
 
 std::unique_ptr<semslam::Detector> MakeDetector(const Arguments& arguments) {
   if (arguments.network.empty()) return nullptr;
-  semslam::DarknetDetector::Options options;
+  semslam::NetworkDetector::Options options;
   options.config = arguments.network[0];
   options.weights = arguments.network[1];
-  return std::make_unique<semslam::DarknetDetector>(
+  return std::make_unique<semslam::NetworkDetector>(
       options, semslam::ClassTable::FromFile(arguments.network[2]));
 }
 

@@ -21,7 +21,7 @@
 #include "semslam/eval/true_boxes.h"
 #include "semslam/io/instances_io.h"
 #include "semslam/io/trajectory_io.h"
-#include "semslam/semantics/network_options.h"
+#include "semslam/semantics/network_detector.h"
 
 #include "format_line.h"
 #include "network_argument.h"
@@ -61,7 +61,7 @@ void AddArguments(CLI::App& app, Arguments& arguments) {
   app.add_option("--score", arguments.score_threshold, "Drop detections below")
       ->capture_default_str();
   app.add_option("--input-size", arguments.input_size,
-                 "Pixels, a multiple of 32; 0: as the cfg says")
+                 "Pixels, a multiple of 32; 0: as the network's file says")
       ->capture_default_str();
   app.add_option("--threads", arguments.threads, "Of the network; 0: one per core")
       ->check(CLI::NonNegativeNumber)
@@ -140,7 +140,8 @@ int Run(const Arguments& arguments) {
   options.input_size = arguments.input_size;
   options.score_threshold = arguments.score_threshold;
   options.min_class_score = std::min(options.min_class_score, options.score_threshold);
-  const auto detector = semslam::MakeNetworkDetector(options, semslam::ClassTable::FromFile(names));
+  const auto detector =
+      std::make_unique<semslam::NetworkDetector>(options, semslam::ClassTable::FromFile(names));
   Findings findings;
   for (const fs::path& clip : arguments.clips) {
     LookAt(clip, arguments.every, *detector, findings);

@@ -104,6 +104,7 @@ void ReadDetector(SettingsFile& file,
   file.Read("Detector.scoreThreshold", &detector.score_threshold, Range::Between(0, 1));
   file.Read("Detector.nmsThreshold", &detector.nms_threshold, Range::Between(0, 1));
   file.Read("Detector.inputSize", &detector.input_size, Range::Between(0, 4096));
+  file.Read("Detector.batchSize", &detector.batch_size, Range::Between(1, 64));
   file.Read("Detector.letterbox", &detector.letterbox);
   file.Read("Detector.backend", &detector.backend);
   file.Read("Detector.target", &detector.target);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include "semslam/base/check.h"
@@ -20,7 +21,7 @@ DetectorThread::DetectorThread(Threading threading, std::unique_ptr<Detector> de
               .queue_capacity = 4096,
               .order = QueueOrder::kNewestFirst,
               .is_background = true},
-             [this](const Job& job) { Process(job); }) {
+             [this](Job job) { Process(std::move(job)); }) {
   SEMSLAM_CHECK(detector_ != nullptr);
 }
 
@@ -33,25 +34,51 @@ bool DetectorThread::Submit(KeyframeId keyframe, const RgbdImagePtr& image) {
   return is_taken;
 }
 
-void DetectorThread::Process(const Job& job) {
-  std::vector<Detection> detections;
+void DetectorThread::Process(Job first) {
+  std::vector<KeyframeId> keyframes = {first.keyframe};
+  std::vector<RgbdImage> images = {std::move(first.image)};
+  while (images.size() < detector_->batch_size()) {
+    std::optional<Job> next = stage_.TryTakeNext();
+    if (!next) break;
+    keyframes.push_back(next->keyframe);
+    images.push_back(std::move(next->image));
+  }
+  if (images.size() > 1 && LookAt(keyframes, images)) return;
+  // One by one too if they failed together: one bad image costs the labels of no other.
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const std::span<const RgbdImage> alone(&images[i], 1);
+    LookAt({&keyframes[i], 1}, alone);
+  }
+}
+
+bool DetectorThread::LookAt(std::span<const KeyframeId> keyframes,
+                            std::span<const RgbdImage> images) {
+  std::vector<std::vector<Detection>> found;
   try {
     const Stopwatch stopwatch;
-    detections = detector_->Detect(job.image);
+    if (images.size() == 1) {
+      found.push_back(detector_->Detect(images.front()));
+    } else {
+      found = detector_->DetectAll(images);
+    }
     const double milliseconds = stopwatch.Milliseconds();
     statistics_.Write([&](Statistics& s) {
-      ++s.num_done;
-      s.mean_milliseconds += (milliseconds - s.mean_milliseconds) / static_cast<double>(s.num_done);
+      const auto count = static_cast<double>(images.size());
+      s.num_done += images.size();
+      s.mean_milliseconds +=
+          (milliseconds - count * s.mean_milliseconds) / static_cast<double>(s.num_done);
     });
   } catch (const std::exception& error) {
     // One image without labels is no reason to lose the map; the count and the text go into the
     // summary.
+    if (images.size() > 1) return false;
     statistics_.Write([&](Statistics& s) {
       if (s.num_failed++ == 0) s.first_error = error.what();
     });
-    return;
+    return false;
   }
-  sink_(job.keyframe, std::move(detections));
+  for (std::size_t i = 0; i < keyframes.size(); ++i) sink_(keyframes[i], std::move(found[i]));
+  return true;
 }
 
 void DetectorThread::Finish() { stage_.Finish(); }

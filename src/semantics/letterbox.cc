@@ -46,22 +46,34 @@ ImageBox Letterbox::ToImage(float centre_x, float centre_y, float width, float h
           ((centre_y + height / 2) * input_h - border_y) * scale_y};
 }
 
-cv::Mat MakeBlob(const cv::Mat& image_bgr, const Letterbox& letterbox) {
+namespace {
+
+void FillImage(const cv::Mat& image_bgr, int number, const Letterbox& letterbox, cv::Mat* blob) {
   SEMSLAM_CHECK(image_bgr.type() == CV_8UC3) << "type " << image_bgr.type();
   cv::Mat fitted;
   cv::resize(image_bgr, fitted, {letterbox.fitted_width, letterbox.fitted_height}, 0, 0,
              cv::INTER_LINEAR);
-  const std::array<int, 4> shape = {1, 3, letterbox.input_height, letterbox.input_width};
-  cv::Mat blob(4, shape.data(), CV_32F, cv::Scalar(0.5));
   for (int channel = 0; channel < 3; ++channel) {
     const int source = 2 - channel;  // BGR to RGB.
     for (int row = 0; row < fitted.rows; ++row) {
       const auto* pixels = fitted.ptr<std::uint8_t>(row);
-      float* values = blob.ptr<float>(0, channel, letterbox.top + row) + letterbox.left;
+      const std::array<int, 4> first = {number, channel, letterbox.top + row, letterbox.left};
+      float* values = blob->ptr<float>(first.data());
       for (int column = 0; column < fitted.cols; ++column) {
         values[column] = static_cast<float>(pixels[3 * column + source]) / 255.0F;
       }
     }
+  }
+}
+
+}  // namespace
+
+cv::Mat MakeBlob(std::span<const cv::Mat> images_bgr, const Letterbox& letterbox) {
+  const auto num_images = static_cast<int>(images_bgr.size());
+  const std::array<int, 4> shape = {num_images, 3, letterbox.input_height, letterbox.input_width};
+  cv::Mat blob(4, shape.data(), CV_32F, cv::Scalar(0.5));
+  for (int i = 0; i < num_images; ++i) {
+    FillImage(images_bgr[static_cast<std::size_t>(i)], i, letterbox, &blob);
   }
   return blob;
 }

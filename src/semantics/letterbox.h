@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include <opencv2/core/mat.hpp>
 
 #include "semslam/semantics/detection.h"
@@ -24,7 +26,8 @@ struct Letterbox {
   ImageBox ToImage(float centre_x, float centre_y, float width, float height) const;
 };
 
-// The 1 x 3 x height x width blob of an 8-bit BGR image: RGB in [0, 1], grey (0.5) borders.
-cv::Mat MakeBlob(const cv::Mat& image_bgr, const Letterbox& letterbox);
+// The images x 3 x height x width blob of 8-bit BGR images of one size: RGB in [0, 1], grey (0.5)
+// borders.
+cv::Mat MakeBlob(std::span<const cv::Mat> images_bgr, const Letterbox& letterbox);
 
 }  // namespace semslam

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/semantics/network_options.h"
 
-#include <utility>
+#include <string>
 
 #include "semslam/base/error.h"
-#include "semslam/semantics/darknet_detector.h"
-#include "semslam/semantics/onnx_detector.h"
 
 namespace semslam {
 
@@ -18,6 +16,8 @@ void NetworkOptions::Validate() const {
   require(
       input_size >= 0 && input_size % 32 == 0 && input_size <= 4096,
       "input_size: expected 0 or a multiple of 32 up to 4096, found " + std::to_string(input_size));
+  require(batch_size >= 1 && batch_size <= 64,
+          "batch_size: expected 1 to 64, found " + std::to_string(batch_size));
   require(score_threshold > 0 && score_threshold <= 1,
           "score_threshold: expected 0 < score <= 1, found " + std::to_string(score_threshold));
   require(in_unit(nms_threshold),
@@ -25,12 +25,6 @@ void NetworkOptions::Validate() const {
   require(in_unit(min_class_score) && min_class_score <= score_threshold,
           "min_class_score: expected a number from 0 to score_threshold, found " +
               std::to_string(min_class_score));
-}
-
-std::unique_ptr<Detector> MakeNetworkDetector(const NetworkOptions& options, ClassTable classes) {
-  if (options.config.extension() == ".onnx")
-    return std::make_unique<OnnxDetector>(options, std::move(classes));
-  return std::make_unique<DarknetDetector>(options, std::move(classes));
 }
 
 }  // namespace semslam

@@ -7,15 +7,15 @@
 
 #include "semslam/eval/detection_score.h"
 #include "semslam/render/clip.h"
-#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/network_detector.h"
 
 namespace semslam {
 namespace {
 
-DarknetDetector Shipped() {
+NetworkDetector Shipped() {
   const std::filesystem::path folder =
       std::filesystem::path(SEMSLAM_SOURCE_DIR) / "config" / "detector";
-  DarknetDetector::Options options;
+  NetworkDetector::Options options;
   options.config = folder / "desk.cfg";
   options.weights = folder / "desk.weights";
   options.score_threshold = 0.02F;
@@ -31,7 +31,7 @@ std::vector<InstanceRecord> RecordsOf(const std::vector<Instance>& instances) {
 }
 
 // A few views along the path of a random desk.
-void LookAt(std::uint64_t seed, DarknetDetector& detector, std::vector<ScoredPicture>& pictures) {
+void LookAt(std::uint64_t seed, NetworkDetector& detector, std::vector<ScoredPicture>& pictures) {
   RenderedClip::Options options;
   options.scene = "random";
   options.seed = seed;
@@ -48,7 +48,7 @@ void LookAt(std::uint64_t seed, DarknetDetector& detector, std::vector<ScoredPic
 }
 
 TEST(ShippedDetector, FindsTheObjectsOfDesksItHasNotSeen) {
-  DarknetDetector detector = Shipped();
+  NetworkDetector detector = Shipped();
   std::vector<ScoredPicture> pictures;
   for (const std::uint64_t seed : {510, 511, 512}) LookAt(seed, detector, pictures);
   const DetectionScore score = ScoreDetections(pictures, detector.classes().size());

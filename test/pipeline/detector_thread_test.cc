@@ -93,6 +93,41 @@ TEST_F(DetectorThreadTest, LooksAtTheNewestFirstAndFinishWorksOffTheRest) {
   EXPECT_FALSE(Submit(5)) << "it has finished";
 }
 
+// Looks at up to three images together, but not at number 5.
+class BatchDetector : public FakeDetector {
+ public:
+  BatchDetector(Gate* gate, Guarded<std::vector<std::size_t>>* sizes)
+      : FakeDetector(gate, {5}), sizes_(sizes) {}
+
+  std::vector<std::vector<Detection>> DetectAll(std::span<const RgbdImage> images) override {
+    sizes_->Write([&](auto& sizes) { sizes.push_back(images.size()); });
+    return FakeDetector::DetectAll(images);
+  }
+  std::size_t batch_size() const override { return 3; }
+
+ private:
+  Guarded<std::vector<std::size_t>>* sizes_;
+};
+
+TEST_F(DetectorThreadTest, LooksAtWaitingImagesTogether) {
+  Guarded<std::vector<std::size_t>> sizes;
+  DetectorThread thread(Threading::kWorkers, std::make_unique<BatchDetector>(&gate_, &sizes),
+                        [this](KeyframeId keyframe, const std::vector<Detection>& detections) {
+                          EXPECT_EQ(detections.at(0).score, static_cast<float>(keyframe.value));
+                          looked_at_.Write([&](auto& list) { list.push_back(keyframe.value); });
+                        });
+  ASSERT_TRUE(thread.Submit(KeyframeId{1}, ImageOf(1)));
+  gate_.reached.wait();
+  for (const std::uint32_t k : {2, 3, 4, 5, 6, 7, 8})
+    ASSERT_TRUE(thread.Submit(KeyframeId{k}, ImageOf(k)));
+  gate_.open.count_down();
+  thread.Finish();
+  EXPECT_THAT(sizes.Read([](const auto& list) { return list; }), ElementsAre(3, 3));
+  EXPECT_THAT(LookedAt(), ElementsAre(1, 8, 7, 6, 4, 3, 2)) << "5 fails, alone";
+  EXPECT_EQ(thread.statistics().num_done, 7U);
+  EXPECT_EQ(thread.statistics().num_failed, 1U);
+}
+
 TEST_F(DetectorThreadTest, CancelDropsWhatIsQueued) {
   Start(Threading::kWorkers, true);
   ASSERT_TRUE(Submit(1));

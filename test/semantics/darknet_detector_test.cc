@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "semslam/semantics/darknet_detector.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/semantics/network_detector.h"
 
 #include "semantics/darknet_config.h"
 
@@ -114,42 +113,42 @@ class DarknetDetectorTest : public ::testing::Test {
 
   fs::path data_;
   fs::path folder_;
-  DarknetDetector::Options options_;
+  NetworkDetector::Options options_;
   ClassTable classes_;
 };
 
 TEST_F(DarknetDetectorTest, RefusesWeightsThatAreCutShortOrTooLong) {
   const std::uintmax_t size = fs::file_size(options_.weights);
   for (const std::uintmax_t wrong : {std::uintmax_t{0}, size / 2, size - 4, size + 4}) {
-    DarknetDetector::Options broken = options_;
+    NetworkDetector::Options broken = options_;
     broken.weights = WeightsOfSize(wrong);
-    EXPECT_THAT([&] { DarknetDetector(broken, classes_); },
+    EXPECT_THAT([&] { NetworkDetector(broken, classes_); },
                 ThrowsMessage<InputError>(HasSubstr("cut.weights: expected")))
         << wrong;
   }
 }
 
 TEST_F(DarknetDetectorTest, RefusesFilesThatDoNotBelongTogether) {
-  DarknetDetector::Options mixed = options_;
+  NetworkDetector::Options mixed = options_;
   mixed.weights = data_ / "yolo/yolo-fastest-1.1-xl.weights";
-  EXPECT_THAT([&] { DarknetDetector(mixed, classes_); },
+  EXPECT_THAT([&] { NetworkDetector(mixed, classes_); },
               ThrowsMessage<InputError>(HasSubstr("of another network")));
   EXPECT_THAT(
       [&] {
-        DarknetDetector(options_, ClassTable({"cup", "mouse"}));
+        NetworkDetector(options_, ClassTable({"cup", "mouse"}));
       },
       ThrowsMessage<InputError>(HasSubstr("2 class names")));
-  DarknetDetector::Options missing = options_;
+  NetworkDetector::Options missing = options_;
   missing.weights = "/nowhere/x.weights";
-  EXPECT_THAT([&] { DarknetDetector(missing, classes_); },
+  EXPECT_THAT([&] { NetworkDetector(missing, classes_); },
               ThrowsMessage<InputError>(HasSubstr("/nowhere/x.weights")));
   missing.config = "/nowhere/x.cfg";
-  EXPECT_THAT([&] { DarknetDetector(missing, classes_); },
+  EXPECT_THAT([&] { NetworkDetector(missing, classes_); },
               ThrowsMessage<InputError>(HasSubstr("/nowhere/x.cfg")));
 }
 
 TEST_F(DarknetDetectorTest, RunsAnImageOfAnyShapeWithinItsBorders) {
-  DarknetDetector detector(options_, classes_);
+  NetworkDetector detector(options_, classes_);
   for (const auto& [width, height] : {std::pair{640, 480}, {17, 301}, {1, 1}}) {
     RgbdImage image;
     image.color = cv::Mat(height, width, CV_8UC3, cv::Scalar(30, 90, 160));
@@ -159,6 +158,33 @@ TEST_F(DarknetDetectorTest, RunsAnImageOfAnyShapeWithinItsBorders) {
       EXPECT_LE(detection.box.max_y, static_cast<float>(height));
     }
   }
+}
+
+TEST_F(DarknetDetectorTest, SeesInSeveralImagesAtOnceWhatItSeesInEach) {
+  options_.batch_size = 3;
+  options_.score_threshold = 0.001F;  // Something everywhere.
+  options_.min_class_score = 0.0005F;
+  NetworkDetector detector(options_, classes_);
+  std::vector<RgbdImage> images;
+  for (int i = 0; i < 3; ++i) {
+    cv::Mat picture(120, 160, CV_8UC3);
+    cv::randu(picture, 0, 80 * (i + 1));
+    images.push_back({i, picture, {}});
+  }
+  const std::vector<std::vector<Detection>> together = detector.DetectAll(images);
+  ASSERT_EQ(together.size(), 3U);
+  std::size_t num_found = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const std::vector<Detection> alone = detector.Detect(images[i]);
+    num_found += alone.size();
+    ASSERT_EQ(together[i].size(), alone.size()) << i;
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      EXPECT_EQ(together[i][k].class_id, alone[k].class_id);
+      EXPECT_NEAR(together[i][k].score, alone[k].score, 1e-5F);
+      EXPECT_NEAR(together[i][k].box.min_x, alone[k].box.min_x, 0.01F);
+    }
+  }
+  EXPECT_GT(num_found, 0U);
 }
 
 TEST_F(DarknetDetectorTest, KnowsTheShapesOfYoloV3TinyToo) {
@@ -177,7 +203,7 @@ TEST_F(DarknetDetectorTest, SeesKeyboardAndMonitorOnTheDesk) {
   if (!fs::exists(file)) GTEST_SKIP() << "no clip " << file << "; scripts/get_tum.sh fetches it";
   options_.config = data_ / "yolo/yolo-fastest-1.1-xl.cfg";
   options_.weights = data_ / "yolo/yolo-fastest-1.1-xl.weights";
-  DarknetDetector detector(options_, classes_);
+  NetworkDetector detector(options_, classes_);
   RgbdImage image;
   image.color = cv::imread(file.string());
   ASSERT_FALSE(image.color.empty());

@@ -137,7 +137,7 @@ TEST(Letterbox, CentresATallImage) {
 
 TEST(Letterbox, BlobIsRgbInTheMiddleOfGrey) {
   const cv::Mat image(50, 100, CV_8UC3, cv::Scalar(255, 51, 0));  // BGR.
-  const cv::Mat blob = MakeBlob(image, Letterbox::Fit(100, 50, 64, 64));
+  const cv::Mat blob = MakeBlob({&image, 1}, Letterbox::Fit(100, 50, 64, 64));
   const auto at = [&](int channel, int row, int column) {
     return blob.ptr<float>(0, channel, row)[column];
   };

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "semslam/semantics/darknet_detector.h"
+#include "semslam/semantics/network_detector.h"
 
 namespace semslam {
 namespace {
@@ -56,9 +56,9 @@ bool IsSame(const Reference& reference, const Detection& detection, int width, i
 
 class ShippedDetector : public ::testing::TestWithParam<std::string> {
  protected:
-  static DarknetDetector Make() {
+  static NetworkDetector Make() {
     const fs::path folder = fs::path(SEMSLAM_SOURCE_DIR) / "config" / "detector";
-    DarknetDetector::Options options;
+    NetworkDetector::Options options;
     options.config = folder / "desk.cfg";
     options.weights = folder / "desk.weights";
     options.score_threshold = 0.1F;

@@ -56,15 +56,20 @@ class BoundedQueue {
       has_items_.notify_one();  // In case this thread's wake-up was meant for another consumer.
       return std::nullopt;
     }
-    std::optional<T> item;
-    if (order_ == QueueOrder::kOldestFirst) {
-      item = std::move(items_.front());
-      items_.pop_front();
-    } else {
-      item = std::move(items_.back());
-      items_.pop_back();
-    }
+    std::optional<T> item = TakeNext();
     lock.unlock();
+    has_room_.notify_one();
+    return item;
+  }
+
+  // The same, but never waits: nothing if the queue is empty.
+  std::optional<T> TryPop() {
+    std::optional<T> item;
+    {
+      const std::lock_guard lock(mutex_);
+      if (items_.empty()) return std::nullopt;
+      item = TakeNext();
+    }
     has_room_.notify_one();
     return item;
   }
@@ -96,6 +101,14 @@ class BoundedQueue {
   }
 
  private:
+  // With the mutex locked and items there.
+  T TakeNext() {
+    const bool is_oldest = order_ == QueueOrder::kOldestFirst;
+    T item = std::move(is_oldest ? items_.front() : items_.back());
+    is_oldest ? items_.pop_front() : items_.pop_back();
+    return item;
+  }
+
   const std::size_t capacity_;
   const QueueOrder order_;
   mutable std::mutex mutex_;

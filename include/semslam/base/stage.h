@@ -59,6 +59,14 @@ class Stage {
     return Count(&BoundedQueue<Input>::TryPush, std::move(input));
   }
 
+  // For the function: takes the next input too, to be handled together with the one in hand. Never
+  // waits; nothing if none is queued, and always with kInline.
+  std::optional<Input> TryTakeNext() {
+    std::optional<Input> input = queue_.TryPop();
+    if (input) --num_unfinished_;  // The one in hand keeps the stage from being idle.
+    return input;
+  }
+
   // Handles all that was submitted, joins the thread and rethrows what the function threw, once.
   void Finish() {
     queue_.Close();

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,10 @@ class DetectorThread {
     KeyframeId keyframe;
     RgbdImage image;  // Without depth.
   };
-  void Process(const Job& job);
+  // Takes waiting images along, as many as the detector likes at once.
+  void Process(Job first);
+  // False: failed.
+  bool LookAt(std::span<const KeyframeId> keyframes, std::span<const RgbdImage> images);
 
   std::unique_ptr<Detector> detector_;
   Sink sink_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "semslam/camera/rgbd_image.h"
@@ -17,6 +19,11 @@ class Detector {
 
   // Boxes within the image, in the pixels of the image as recorded.
   virtual std::vector<Detection> Detect(const RgbdImage& image) = 0;
+
+  // The same for several images of one size, in their order.
+  virtual std::vector<std::vector<Detection>> DetectAll(std::span<const RgbdImage> images);
+  // How many images to give to DetectAll at most, for speed.
+  virtual std::size_t batch_size() const { return 1; }
 
   // The classes that the detections' ids mean.
   virtual const ClassTable& classes() const = 0;

@@ -3,10 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
-
-#include "semslam/semantics/detector.h"
 
 namespace semslam {
 
@@ -14,8 +11,11 @@ namespace semslam {
 struct NetworkOptions {
   std::filesystem::path config;   // Darknet's .cfg, or an .onnx file,
   std::filesystem::path weights;  // and Darknet's .weights; ONNX has none.
-  // Pixels, a multiple of 32; 0: as the cfg says, 640 for ONNX.
+  // Pixels, a multiple of 32; 0: as the cfg or the .onnx file says, 640 if that leaves it open.
   int input_size = 0;
+  // Images that wait are looked at together, up to so many. A graphics card is quicker that way; on
+  // two cores it gains nothing.
+  int batch_size = 1;
   bool letterbox = true;          // The image keeps its proportions and gets a grey border; else it
                                   // is stretched to fill the input.
   float score_threshold = 0.25F;  // Detections with a lower best score are left out.
@@ -29,8 +29,5 @@ struct NetworkOptions {
   std::string target = "cpu";
   void Validate() const;  // Throws InputError.
 };
-
-// An OnnxDetector if the file's name ends in .onnx, else a DarknetDetector. Throws as they do.
-std::unique_ptr<Detector> MakeNetworkDetector(const NetworkOptions& options, ClassTable classes);
 
 }  // namespace semslam

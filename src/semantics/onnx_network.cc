@@ -1,26 +1,26 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "semslam/semantics/onnx_detector.h"
-
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <opencv2/dnn.hpp>
 
-#include "semslam/base/check.h"
 #include "semslam/base/error.h"
 
 #include "semantics/dnn_backend.h"
 #include "semantics/letterbox.h"
+#include "semantics/network.h"
+#include "semantics/onnx_input.h"
 
 namespace semslam {
 namespace {
 
-constexpr int kUsualInputSize = 640;          // Of exported networks.
-constexpr std::size_t kMaxCandidates = 1000;  // Before suppression.
-constexpr int kBoxValues = 4;                 // Centre x, y, width, height.
+constexpr int kUsualInputSize = 640;  // Of exported networks.
+constexpr int kBoxValues = 4;         // Centre x, y, width, height.
 
 std::string ShapeOf(const cv::Mat& output) {
   std::string shape;
@@ -79,14 +79,16 @@ std::vector<Detection> DecodeAll(const Rows& rows,
   return detections;
 }
 
-}  // namespace
+// What Detector.inputSize asks for, or the file; else the usual.
+cv::Size InputSize(const NetworkOptions& options) {
+  if (options.input_size > 0) return {options.input_size, options.input_size};
+  return ReadOnnxInputSize(options.config).value_or(cv::Size(kUsualInputSize, kUsualInputSize));
+}
 
-class OnnxDetector::Network {
+class OnnxNetwork : public Network {
  public:
-  Network(const Options& options, int num_classes)
-      : file_(options.config.string()),
-        size_(options.input_size > 0 ? options.input_size : kUsualInputSize),
-        num_classes_(num_classes) {
+  OnnxNetwork(const NetworkOptions& options, int num_classes)
+      : options_(options), file_(options.config.string()), num_classes_(num_classes) {
     if (!std::filesystem::is_regular_file(options.config))
       throw InputError(file_ + ": cannot open the network");
     try {
@@ -94,62 +96,75 @@ class OnnxDetector::Network {
     } catch (const cv::Exception& error) {
       throw InputError(file_ + ": OpenCV cannot read the network: " + error.err);
     }
+    input_size_ = InputSize(options);
     SelectBackend(net_, options.backend, options.target);
-    // OpenCV allocates at the first run, and only then are shapes known.
-    const cv::Mat grey(size_, size_, CV_8UC3, cv::Scalar(128, 128, 128));
+    Warm();
+  }
+
+  cv::Size input_size() const override { return input_size_; }
+
+  std::vector<std::vector<Detection>> Run(const cv::Mat& blob,
+                                          const Letterbox& letterbox) override {
+    std::vector<std::vector<Detection>> detections;
+    for (const Rows& rows : Forward(blob)) {
+      detections.push_back(DecodeAll(rows, letterbox, num_classes_, options_));
+    }
+    return detections;
+  }
+
+ private:
+  // OpenCV allocates at the first run, and only then are shapes known.
+  void Warm() {
+    const cv::Mat grey(input_size_, CV_8UC3, cv::Scalar(128, 128, 128));
+    const std::vector<cv::Mat> pictures(static_cast<std::size_t>(options_.batch_size), grey);
     try {
-      Forward(MakeBlob(grey, Letterbox::Fit(size_, size_, size_, size_)));
+      Forward(MakeBlob(pictures, Letterbox::Fit(grey.cols, grey.rows, grey.cols, grey.rows)));
     } catch (const cv::Exception& error) {
-      throw InputError(file_ + ": OpenCV cannot run the network with an input of " +
-                       std::to_string(size_) + " x " + std::to_string(size_) +
-                       " pixels (Detector.inputSize): " + error.err);
+      throw InputError(
+          file_ + ": OpenCV cannot run the network with " + std::to_string(options_.batch_size) +
+          " x " + std::to_string(input_size_.width) + " x " + std::to_string(input_size_.height) +
+          " pixels (Detector.batchSize, Detector.inputSize): " + error.err);
     }
   }
 
-  int size() const { return size_; }
-
-  // Throws InputError if the output has none of the known forms.
-  Rows Forward(const cv::Mat& blob) {
+  // For each image. Throws InputError if the output has none of the known forms.
+  std::vector<Rows> Forward(const cv::Mat& blob) {
     net_.setInput(blob);
     const cv::Mat output = net_.forward();
-    if (output.dims == 3 && output.size[0] == 1 && output.type() == CV_32FC1) {
-      const cv::Mat plane(output.size[1], output.size[2], CV_32FC1,
-                          const_cast<uchar*>(output.data));
-      if (plane.cols == kBoxValues + 1 + num_classes_) return {plane.clone(), true};
-      if (plane.rows == kBoxValues + num_classes_) return {plane.t(), false};
+    std::vector<Rows> rows;
+    // Of a network that was exported for one image, OpenCV gives images x 1 x ... for several.
+    const bool has_one_axis_more = output.dims == 4 && output.size[1] == 1;
+    if ((output.dims == 3 || has_one_axis_more) && output.size[0] == blob.size[0] &&
+        output.type() == CV_32FC1) {
+      for (int image = 0; image < output.size[0]; ++image) {
+        const cv::Mat plane(output.size[output.dims - 2], output.size[output.dims - 1], CV_32FC1,
+                            const_cast<uchar*>(output.ptr(image)));
+        if (plane.cols == kBoxValues + 1 + num_classes_) {
+          rows.push_back({plane.clone(), true});
+        } else if (plane.rows == kBoxValues + num_classes_) {
+          rows.push_back({plane.t(), false});
+        }
+      }
     }
-    throw InputError(file_ + ": expected an output of 1 x boxes x " +
-                     std::to_string(kBoxValues + 1 + num_classes_) + " or 1 x " +
+    if (!rows.empty()) return rows;
+    const std::string images = std::to_string(blob.size[0]);
+    throw InputError(file_ + ": expected an output of " + images + " x boxes x " +
+                     std::to_string(kBoxValues + 1 + num_classes_) + " or " + images + " x " +
                      std::to_string(kBoxValues + num_classes_) + " x boxes for " +
                      std::to_string(num_classes_) + " class names, found " + ShapeOf(output));
   }
 
- private:
+  NetworkOptions options_;
   std::string file_;
-  int size_;
   int num_classes_;
+  cv::Size input_size_;
   cv::dnn::Net net_;
 };
 
-OnnxDetector::OnnxDetector(const Options& options, ClassTable classes)
-    : options_(options), classes_(std::move(classes)) {
-  options_.Validate();
-  network_ = std::make_unique<Network>(options_, static_cast<int>(classes_.size()));
-}
+}  // namespace
 
-OnnxDetector::~OnnxDetector() = default;
-
-std::vector<Detection> OnnxDetector::Detect(const RgbdImage& image) {
-  const cv::Mat& color = image.color;
-  SEMSLAM_CHECK(!color.empty() && color.type() == CV_8UC3) << "type " << color.type();
-  const int num_classes = static_cast<int>(classes_.size());
-  const auto place = options_.letterbox ? Letterbox::Fit : Letterbox::Stretch;
-  const Letterbox letterbox = place(color.cols, color.rows, network_->size(), network_->size());
-  std::vector<Detection> detections =
-      DecodeAll(network_->Forward(MakeBlob(color, letterbox)), letterbox, num_classes, options_);
-  detections =
-      Sanitise(std::move(detections), classes_.size(), color.cols, color.rows, kMaxCandidates);
-  return SuppressOverlaps(std::move(detections), options_.nms_threshold);
+std::unique_ptr<Network> LoadOnnx(const NetworkOptions& options, std::size_t num_classes) {
+  return std::make_unique<OnnxNetwork>(options, static_cast<int>(num_classes));
 }
 
 }  // namespace semslam
