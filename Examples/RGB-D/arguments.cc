@@ -65,7 +65,7 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
           ->type_name("CFG WEIGHTS NAMES");
   CLI::Option* detections =
       app.add_option("--detections", arguments.detections,
-                     "Instead of a network: recorded detections, a YOLO text file an image, and "
+                     "Instead of a network: recorded detections, a file (YOLO text or JSON) an image, and "
                      "classes.names")
           ->type_name("DIR")
           ->excludes(network);

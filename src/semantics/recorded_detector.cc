@@ -13,6 +13,8 @@
 
 #include "semslam/base/error.h"
 
+#include "semantics/detection_json.h"
+
 namespace semslam {
 namespace {
 
@@ -46,7 +48,15 @@ std::optional<Detection> ParseLine(const std::string& line, std::size_t num_clas
   return detection;
 }
 
-std::vector<Detection> ReadFile(const std::filesystem::path& path, std::size_t num_classes) {
+std::vector<Detection> ReadJsonFile(const std::filesystem::path& path, const ClassTable& classes) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(path.string() + ": cannot read");
+  return ParseJsonDetections(text.str(), path.string(), classes);
+}
+
+std::vector<Detection> ReadYoloFile(const std::filesystem::path& path, std::size_t num_classes) {
   std::ifstream file(path);
   if (!file) throw InputError(path.string() + ": cannot open");
   std::vector<Detection> detections;
@@ -71,19 +81,24 @@ RecordedDetector::RecordedDetector(const Options& options, ClassTable classes)
     : options_(options), classes_(std::move(classes)) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(options_.folder, error)) {
-    if (entry.path().extension() != ".txt") continue;
+    const bool is_json = entry.path().extension() == ".json";
+    if (!is_json && entry.path().extension() != ".txt") continue;
     const auto time = ParseTime(entry.path().stem().string());
     if (!time) {
       throw InputError(entry.path().string() +
                        ": expected the image's time in seconds as the file's name");
     }
-    images_.push_back({*time, ReadFile(entry.path(), classes_.size())});
+    images_.push_back({*time,
+                       is_json ? ReadJsonFile(entry.path(), classes_)
+                               : ReadYoloFile(entry.path(), classes_.size()),
+                       !is_json});
   }
   if (error) {
     throw InputError(options_.folder.string() + ": cannot read the folder: " + error.message());
   }
   if (images_.empty()) {
-    throw InputError(options_.folder.string() + ": expected detections as TIME.txt, found none");
+    throw InputError(options_.folder.string() +
+                     ": expected detections as TIME.txt or TIME.json, found none");
   }
   std::sort(images_.begin(), images_.end(),
             [](const Image& a, const Image& b) { return a.time < b.time; });
@@ -100,8 +115,10 @@ std::vector<Detection> RecordedDetector::Detect(const RgbdImage& image) {
   std::vector<Detection> detections;
   for (Detection detection : nearest->detections) {
     if (detection.score < options_.score_threshold) continue;
-    ImageBox& box = detection.box;
-    box = {box.min_x * width, box.min_y * height, box.max_x * width, box.max_y * height};
+    if (nearest->is_relative) {
+      ImageBox& box = detection.box;
+      box = {box.min_x * width, box.min_y * height, box.max_x * width, box.max_y * height};
+    }
     detections.push_back(std::move(detection));
   }
   return Sanitise(std::move(detections), classes_.size(), image.color.cols, image.color.rows);

@@ -30,6 +30,16 @@ TEST(BoundedQueue, GivesTheNewestFirstIfAsked) {
   EXPECT_EQ(queue.Pop(), 2);
 }
 
+TEST(BoundedQueue, TryPopTakesWhatPopWouldAndNeverWaits) {
+  BoundedQueue<int> queue(3, QueueOrder::kNewestFirst);
+  EXPECT_EQ(queue.TryPop(), std::nullopt);
+  for (const int item : {1, 2, 3}) queue.Push(item);
+  EXPECT_EQ(queue.TryPop(), 3);
+  EXPECT_TRUE(queue.TryPush(4)) << "there is room again";
+  queue.Close();
+  EXPECT_EQ(queue.TryPop(), 4);
+}
+
 TEST(BoundedQueue, HoldsItemsThatCanOnlyBeMoved) {
   BoundedQueue<std::unique_ptr<int>> queue(1);
   queue.Push(std::make_unique<int>(5));

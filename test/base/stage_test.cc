@@ -207,6 +207,28 @@ TEST(Stage, TakesTheNewestInputFirstIfAsked) {
 }
 
 // Submitters that race with a failure must leave the count of unfinished inputs at zero.
+TEST(Stage, TheFunctionMayTakeWhatWaitsAlong) {
+  std::latch reached(1);
+  std::latch queued(1);
+  std::vector<std::vector<int>> batches;
+  Stage<int>* self = nullptr;
+  Stage<int> stage({.threading = kWorkers}, [&](int input) {
+    reached.count_down(batches.empty() ? 1 : 0);
+    queued.wait();
+    batches.push_back({input});
+    while (const std::optional<int> next = self->TryTakeNext()) batches.back().push_back(*next);
+  });
+  self = &stage;
+  stage.Submit(1);
+  reached.wait();
+  for (const int input : {2, 3}) stage.Submit(input);
+  EXPECT_FALSE(stage.idle());
+  queued.count_down();
+  while (!stage.idle()) std::this_thread::yield();
+  stage.Finish();
+  EXPECT_THAT(batches, ElementsAre(ElementsAre(1, 2, 3)));
+}
+
 TEST(Stage, IsIdleAfterManySubmittersRacedWithAFailure) {
   for (int round = 0; round < 100; ++round) {
     Stage<int> stage({.threading = kWorkers, .queue_capacity = 2}, [](int input) {

@@ -196,6 +196,47 @@ TEST_F(RecordedDetectorTest, GivesTheBoxesOfTheImageAtThatTime) {
   EXPECT_TRUE(detector.Detect(ImageAt(10'600'000'000)).empty());
 }
 
+TEST_F(RecordedDetectorTest, ReadsJsonToo) {
+  Write("10.5.json",
+        R"([{"name": "mouse", "class": 64, "confidence": 0.8,
+             "box": {"x1": 240, "y1": 10.5, "x2": 300, "y2": 360}},
+            {"class": 2, "box": [1, 2, 30, 40]}])");
+  Write("11.0.json", "[]");
+  RecordedDetector detector = Load();
+  const auto detections = detector.Detect(ImageAt(10'500'000'000));
+  ASSERT_EQ(detections.size(), 2U);
+  EXPECT_EQ(detections[0].class_id, 2);
+  EXPECT_EQ(detections[0].score, 1.0F);
+  EXPECT_FLOAT_EQ(detections[0].box.max_y, 40.0F);
+  EXPECT_EQ(detections[1].class_id, 1);
+  EXPECT_FLOAT_EQ(detections[1].class_scores[1], 0.8F);
+  EXPECT_FLOAT_EQ(detections[1].box.min_y, 10.5F);
+  EXPECT_FLOAT_EQ(detections[1].box.max_x, 300.0F);
+  EXPECT_TRUE(detector.Detect(ImageAt(11'000'000'000)).empty());
+}
+
+TEST_F(RecordedDetectorTest, NamesTheEntryOfBrokenJson) {
+  const auto error_of = [&](const std::string& text) -> std::string {
+    Write("10.5.json", text);
+    try {
+      Load();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string box = R"("box": [1, 2, 30, 40])";
+  EXPECT_THAT(error_of("[{"), HasSubstr("10.5.json: no JSON: byte 3"));
+  EXPECT_THAT(error_of("{}"), HasSubstr("expected a list"));
+  EXPECT_THAT(error_of("[7]"), HasSubstr("[0]: expected an object, found 7"));
+  EXPECT_THAT(error_of(R"([{"name": "cow", )" + box + "}]"), HasSubstr("found \"cow\""));
+  EXPECT_THAT(error_of(R"([{"class": 3, )" + box + "}]"), HasSubstr("a class from 0 to 2"));
+  EXPECT_THAT(error_of(R"([{"class": 1, "score": 7, )" + box + "}]"), HasSubstr("score in [0, 1]"));
+  EXPECT_THAT(error_of(R"([{"class": 1}])"), HasSubstr("[0]: expected box"));
+  EXPECT_THAT(error_of(R"([{"class": 1, "box": {"x1": 1, "y1": 2, "x2": "3", "y2": 4}}])"),
+              HasSubstr("[0]: expected box"));
+}
+
 TEST_F(RecordedDetectorTest, NamesFileAndLineOfABrokenEntry) {
   Write("10.5.txt", "1 0.5 0.5 0.25 0.5 0.8\n9 0.5 0.5 0.2 0.2 0.5\n");
   EXPECT_THAT([&] { Load(); }, ThrowsMessage<InputError>(HasSubstr("10.5.txt:2")));

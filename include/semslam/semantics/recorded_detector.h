@@ -11,11 +11,15 @@
 
 namespace semslam {
 
-// Detections that another program wrote: one text file an image, in YOLO's format, a line
+// Detections that another program wrote: a file an image, whose name is the colour image's time in
+// seconds, as in TUM sequences. An image without a file has no detections. Either in YOLO's format
+// (1305031102.175304.txt), a line
 //   class cx cy width height [score]
-// for every object, the class as a number from 0, the rest relative to the image's size in [0, 1].
-// A missing score means 1. The file's name is the colour image's time in seconds, as in TUM
-// sequences (1305031102.175304.txt). An image without a file has no detections.
+// for every object, the class as a number from 0, the rest relative to the image's size in [0, 1];
+// or as JSON (1305031102.175304.json), a list of
+//   {"name": "cup", "confidence": 0.9, "box": {"x1": 10, "y1": 20, "x2": 50, "y2": 70}}
+// with the box in pixels, which may also be [x1, y1, x2, y2]; "class": number may stand instead of
+// the name, and "score" instead of "confidence". A missing score means 1.
 class RecordedDetector : public Detector {
  public:
   struct Options {
@@ -34,7 +38,8 @@ class RecordedDetector : public Detector {
  private:
   struct Image {
     TimeNs time;
-    std::vector<Detection> detections;  // Boxes relative to the image's size.
+    std::vector<Detection> detections;
+    bool is_relative;  // Boxes are relative to the image's size, else in pixels.
   };
   Options options_;
   ClassTable classes_;
