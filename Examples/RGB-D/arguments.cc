@@ -64,9 +64,10 @@ void AddMappingOptions(CLI::App& app, MappingArguments& arguments, const std::st
           ->expected(2, 3)
           ->type_name("CFG WEIGHTS NAMES");
   CLI::Option* detections =
-      app.add_option("--detections", arguments.detections,
-                     "Instead of a network: recorded detections, a file (YOLO text or JSON) an image, and "
-                     "classes.names")
+      app.add_option(
+             "--detections", arguments.detections,
+             "Instead of a network: recorded detections, a file (YOLO text or JSON) an image, and "
+             "classes.names")
           ->type_name("DIR")
           ->excludes(network);
   app.add_option("--classes", arguments.classes, "Classes to put into the map (default: all)")

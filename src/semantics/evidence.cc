@@ -61,6 +61,7 @@ class KeyframeJudge {
     AddBest(evidence);
     AddBackground(evidence);
     AddParted(evidence);
+    for (const SegmentAndClass& box : filled_) ++evidence.num_filled_boxes[box];
   }
 
  private:
@@ -76,12 +77,6 @@ class KeyframeJudge {
     const Visibility& visible = view_.visibility[segment];
     return visible.num_pixels >= options_.min_pixels &&
            visible.area >= min_share * SegmentOf(segment).area;
-  }
-
-  bool CanBe(SegmentId segment, int class_id) const {
-    const Segment& candidate = SegmentOf(segment);
-    if (candidate.is_structural && !classes_.may_be_structural(class_id)) return false;
-    return 2 * candidate.box.half_size.maxCoeff() <= classes_.max_extent(class_id);
   }
 
   std::map<SegmentId, Overlap> MeasureOverlaps(const Detection& detection,
@@ -114,6 +109,10 @@ class KeyframeJudge {
         view_.image, range, FindBarriers(segmentation_, classes_, detection.class_id), options_);
     for (BoxClaim& claim : ClaimsOf(foreground, view_, options_.min_pixels)) {
       claims_.push_back(std::move(claim));
+    }
+    const SegmentId filling = FindFilling(view_.image, range);
+    if (filling != 0 && !CanBe(SegmentOf(filling), classes_, detection.class_id)) {
+      filled_.emplace_back(filling, detection.class_id);
     }
     std::vector<SegmentId> held;
     for (const auto& [segment, overlap] : MeasureOverlaps(detection, range, foreground)) {
@@ -166,7 +165,7 @@ class KeyframeJudge {
     gain.part_alpha.resize(classes_.size());
     gain.is_seen_as.resize(classes_.size());
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      if (!CanBe(segment, static_cast<int>(c))) continue;
+      if (!CanBe(SegmentOf(segment), classes_, static_cast<int>(c))) continue;
       const auto score = static_cast<double>(detection.class_scores[c]);
       gain.part_alpha[c] = std::max(gain.part_alpha[c], score * part_weight);
       const double alpha = score * weight;
@@ -215,7 +214,8 @@ class KeyframeJudge {
   const KeyframeView view_;
   std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
   std::map<SegmentId, Gain> gains_;
-  std::vector<BoxClaim> claims_;                                       // Of all boxes.
+  std::vector<BoxClaim> claims_;         // Of all boxes.
+  std::vector<SegmentAndClass> filled_;  // Boxes filled by what their thing cannot be.
   std::vector<std::pair<int, std::vector<SegmentId>>> held_by_boxes_;  // With the box's class.
   std::set<SegmentPair> shared_;                                       // By one box.
   std::set<SegmentPair> separate_;                                     // By two of one class.

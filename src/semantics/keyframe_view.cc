@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "semslam/base/check.h"
@@ -47,12 +48,34 @@ KeyframeView DrawSegments(const LabelledKeyframe& keyframe,
   return view;
 }
 
+SegmentId FindFilling(const SegmentImage& image, const CellRange& box) {
+  std::map<SegmentId, std::size_t> counts;
+  std::size_t num_measured = 0;
+  for (int row = box.first_row; row < box.last_row; ++row) {
+    for (int column = box.first_column; column < box.last_column; ++column) {
+      const std::size_t cell = image.Cell(column, row);
+      if (image.depth[cell] <= 0) continue;
+      ++num_measured;
+      ++counts[image.segments[cell]];
+    }
+  }
+  for (const auto& [segment, count] : counts) {
+    if (segment != 0 && 2 * count >= num_measured) return segment;
+  }
+  return 0;
+}
+
 LabelledKeyframe Usable(const LabelledKeyframe& keyframe, const ClassTable& classes) {
   SEMSLAM_CHECK(keyframe.cloud != nullptr);
   LabelledKeyframe usable = keyframe;
   usable.detections = Sanitise(std::move(usable.detections), classes.size(),
                                keyframe.cloud->image_width(), keyframe.cloud->image_height());
   return usable;
+}
+
+bool CanBe(const Segment& segment, const ClassTable& classes, int class_id) {
+  if (segment.is_structural && !classes.may_be_structural(class_id)) return false;
+  return 2 * segment.box.half_size.maxCoeff() <= classes.max_extent(class_id);
 }
 
 std::vector<bool> FindBarriers(const Segmentation& segmentation,

@@ -27,6 +27,9 @@ KeyframeView DrawSegments(const LabelledKeyframe& keyframe,
                           const VoxelIndex& index,
                           const Segmentation& segmentation);
 
+// The segment that at least half of the measured cells of a box show; 0: none.
+SegmentId FindFilling(const SegmentImage& image, const CellRange& box);
+
 // Without detections that make no sense.
 LabelledKeyframe Usable(const LabelledKeyframe& keyframe, const ClassTable& classes);
 
@@ -34,5 +37,8 @@ LabelledKeyframe Usable(const LabelledKeyframe& keyframe, const ClassTable& clas
 std::vector<bool> FindBarriers(const Segmentation& segmentation,
                                const ClassTable& classes,
                                int class_id);
+
+// Whether a thing of the class can be as large as the segment, and as flat.
+bool CanBe(const Segment& segment, const ClassTable& classes, int class_id);
 
 }  // namespace semslam

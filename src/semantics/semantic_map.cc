@@ -13,6 +13,7 @@
 #include "semslam/base/error.h"
 
 #include "semantics/duplicates.h"
+#include "semantics/flat_things.h"
 #include "semantics/label_segments.h"
 #include "semantics/split_segments.h"
 #include "semantics/support.h"
@@ -182,17 +183,26 @@ SemanticMap BuildSemanticMap(const MapCloud& cloud,
   options.Validate();
   SEMSLAM_CHECK(segmentation.segment_of_point.size() == cloud.size())
       << segmentation.segment_of_point.size() << " labels, " << cloud.size() << " points";
-  Evidence evidence = CollectEvidence(keyframes, index, segmentation, classes, options.evidence);
-  std::optional<Segmentation> parted;  // Instead of the segmentation, if there are mixed segments.
+  // Instead of the segmentation, where boxes know more than the geometry.
+  std::optional<Segmentation> parted;
+  const auto segments = [&]() -> const Segmentation& { return parted ? *parted : segmentation; };
+  const auto collect = [&] {
+    return CollectEvidence(keyframes, index, segments(), classes, options.evidence);
+  };
+  Evidence evidence = collect();
+  if (auto with_flat_things =
+          TakeOutFlatThings(cloud, index, segmentation, keyframes, evidence, classes)) {
+    parted = std::move(with_flat_things);
+    evidence = collect();
+  }
   for (int round = 0; round < kMaxThingsInASegment - 1; ++round) {
-    auto further = SplitMixedSegments(cloud, index, parted ? *parted : segmentation, keyframes,
-                                      evidence, classes, options.evidence);
+    auto further = SplitMixedSegments(cloud, index, segments(), keyframes, evidence, classes,
+                                      options.evidence);
     if (!further) break;
     parted = std::move(further);
-    evidence = CollectEvidence(keyframes, index, *parted, classes, options.evidence);
+    evidence = collect();
   }
-  return LabelMap(cloud, index, parted ? *parted : segmentation, evidence, classes, options,
-                  previous);
+  return LabelMap(cloud, index, segments(), evidence, classes, options, previous);
 }
 
 }  // namespace semslam

@@ -14,9 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "semantics/box_claims.h"
+#include "semantics/segment_parts.h"
 
 namespace semslam {
 namespace {
@@ -192,48 +191,6 @@ class Parting {
   std::map<std::uint32_t, std::array<std::uint32_t, 2>> votes_;  // By point.
 };
 
-// `whole` without the rest: the fields that depend on the points.
-Segment PartOf(const Segment& whole,
-               const std::vector<std::uint32_t>& points,
-               const MapCloud& cloud) {
-  Segment part = whole;
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(points.size());
-  part.centroid.setZero();
-  for (const std::uint32_t point : points) {
-    positions.push_back(cloud.positions[point].cast<double>());
-    part.centroid += positions.back();
-  }
-  const auto size = static_cast<double>(points.size());
-  part.centroid /= size;
-  part.num_points = points.size();
-  part.box = FitOrientedBox(positions);
-  part.area = whole.area * size / static_cast<double>(whole.num_points);
-  return part;
-}
-
-// The larger part keeps the number.
-void Split(SegmentId id,
-           std::array<std::vector<std::uint32_t>, 2> parts,
-           const MapCloud& cloud,
-           Segmentation* segmentation) {
-  if (parts[0].size() < parts[1].size()) std::swap(parts[0], parts[1]);
-  const auto new_id = static_cast<SegmentId>(segmentation->segments.size() + 1);
-  for (const std::uint32_t point : parts[1]) segmentation->segment_of_point[point] = new_id;
-  const Segment whole = segmentation->segments[id - 1];
-  for (const SegmentId neighbour : whole.neighbours) {
-    segmentation->segments[neighbour - 1].neighbours.push_back(new_id);
-  }
-  Segment& larger = segmentation->segments[id - 1];
-  larger = PartOf(whole, parts[0], cloud);
-  larger.neighbours.push_back(new_id);
-  Segment smaller = PartOf(whole, parts[1], cloud);
-  smaller.id = new_id;
-  smaller.neighbours.insert(
-      std::lower_bound(smaller.neighbours.begin(), smaller.neighbours.end(), id), id);
-  segmentation->segments.push_back(std::move(smaller));
-}
-
 std::map<SegmentId, std::vector<std::uint32_t>> PointsOf(
     const std::map<SegmentId, Claims>& claims_of, const Segmentation& segmentation) {
   std::map<SegmentId, std::vector<std::uint32_t>> points_of;
@@ -269,7 +226,8 @@ std::optional<Segmentation> SplitMixedSegments(const MapCloud& cloud,
       continue;
     }
     if (!result) result = segmentation;
-    Split(segment, std::move(parts), cloud, &*result);
+    const bool is_first_smaller = parts[0].size() < parts[1].size();
+    MakeSegment(parts[is_first_smaller ? 0 : 1], segment, cloud, &*result);
   }
   return result;
 }

@@ -59,8 +59,10 @@ class Desk {
     return box;
   }
 
-  // All things are one segment, 3.
+  // All things are one segment, 3;
   void JoinThings() { num_segments_ = 3; }
+  // or no segments of their own, but the desk's, 2.
+  void JoinThingsToTheDesk() { num_segments_ = 2; }
 
   SemanticMap Fuse(const FusionOptions& options = {}, const SemanticMap* previous = nullptr) {
     VoxelMap voxels({});
@@ -370,6 +372,45 @@ TEST(BuildSemanticMap, DoesNotPartAThingThatIsSeenWholeInMostViews) {
   const SemanticMap map = desk.Fuse();
   ASSERT_EQ(map.objects.size(), 1U);
   EXPECT_EQ(map.objects[0].class_id, kMonitor);
+}
+
+// Something flat that is one segment with the desk, in a loose box.
+Desk FlatThingOnTheDesk(const Box& thing) {
+  Desk desk({thing});
+  for (int i = 0; i < 5; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kLaptop, 0.8F, desk.BoxAround(3, ViewFrom(i), 6))});
+  }
+  desk.JoinThingsToTheDesk();
+  return desk;
+}
+
+TEST(BuildSemanticMap, TakesAFlatThingOutOfTheDeskItIsOneSegmentWith) {
+  const Box thing{{-0.22, 0.275, 1.65}, {0.22, 0.3, 1.8}};
+  Desk desk = FlatThingOnTheDesk(thing);
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  EXPECT_EQ(map.objects[0].class_id, kLaptop);
+  EXPECT_EQ(map.objects[0].segments, std::vector<SegmentId>{3}) << "a new number";
+  std::size_t num_on = 0;
+  std::size_t num_labelled = 0;
+  std::size_t num_both = 0;
+  for (std::size_t i = 0; i < map.object_of_point.size(); ++i) {
+    const Eigen::Vector3d p = desk.cloud().positions[i].cast<double>();
+    const bool is_on = (thing.low - p).maxCoeff() < 0.002 && (p - thing.high).maxCoeff() < -0.005;
+    if (is_on) ++num_on;
+    if (map.object_of_point[i] != 0) ++num_labelled;
+    if (is_on && map.object_of_point[i] != 0) ++num_both;
+  }
+  EXPECT_GT(num_on, 200U);
+  EXPECT_GT(num_both, 0.85 * static_cast<double>(num_on));
+  EXPECT_LT(num_labelled, 1.15 * static_cast<double>(num_on)) << "no class on the desk top";
+}
+
+TEST(BuildSemanticMap, TakesNothingOutOfTheDeskThatDoesNotRiseAboveIt) {
+  Desk desk = FlatThingOnTheDesk({{-0.22, 0.299, 1.65}, {0.22, 0.3, 1.8}});
+  const SemanticMap map = desk.Fuse();
+  EXPECT_TRUE(map.objects.empty()) << "a picture of a laptop";
+  EXPECT_EQ(*std::max_element(map.segment_of_point.begin(), map.segment_of_point.end()), 2U);
 }
 
 TEST(BuildSemanticMap, DoesNotDependOnTheOrderOfKeyframes) {

@@ -61,8 +61,13 @@ inline constexpr double kEvidenceUnit = 1.0 / (1 << 20);
 
 using SegmentPair = std::pair<SegmentId, SegmentId>;  // The lower id first.
 
+// Boxes of one class.
+using SegmentAndClass = std::pair<SegmentId, int>;
+
 struct Evidence {
   std::vector<SegmentEvidence> segments;  // segments[i] belongs to segment i + 1.
+  // How many boxes of a class were filled by a segment that is too large for it.
+  std::map<SegmentAndClass, std::uint32_t> num_filled_boxes;
   // In how many keyframes two segments belonged to the foreground of one box.
   std::map<SegmentPair, std::uint32_t> num_shared_boxes;
   // In how many two boxes of one class held one segment each, and no box both.
