@@ -17,13 +17,32 @@ namespace semslam {
 
 constexpr std::uint32_t kNoVoxel = std::numeric_limits<std::uint32_t>::max();
 
+// Where the fields of a voxel's key begin. One free cell on either side of the cloud keeps the keys
+// of neighbours apart from those of other rows.
+struct VoxelKeyLayout {
+  int shift_y = 0;
+  int shift_z = 0;
+  int num_bits = 0;
+
+  std::uint64_t Key(const Eigen::Vector3i& cell) const {
+    return static_cast<std::uint64_t>(cell.z()) << shift_z |
+           static_cast<std::uint64_t>(cell.y()) << shift_y | static_cast<std::uint64_t>(cell.x());
+  }
+  Eigen::Vector3i CellOf(std::uint64_t key) const {
+    return {
+        static_cast<std::int32_t>(key & ((std::uint64_t{1} << shift_y) - 1)),
+        static_cast<std::int32_t>(key >> shift_y & ((std::uint64_t{1} << (shift_z - shift_y)) - 1)),
+        static_cast<std::int32_t>(key >> shift_z)};
+  }
+};
+
 // The occupied voxels of a cloud in flat arrays, sorted by key, so that the order of the points has
 // no effect. Coordinates are relative to `origin`, the low corner of the cloud.
 struct VoxelGrid {
   double voxel_size = 0;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  VoxelKeyLayout layout;
   std::vector<std::uint64_t> keys;            // Ascending; from high to low bits z, y, x.
-  std::vector<Eigen::Vector3i> cells;         // Position in the grid.
   std::vector<Eigen::Vector3f> centroids;     // Of the points inside.
   std::vector<Eigen::Vector3f> views;         // Mean side that was seen; zero if unknown.
   std::vector<std::uint32_t> voxel_of_point;  // kNoVoxel for points that are left out.
@@ -39,7 +58,8 @@ struct VoxelGrid {
     return 9 * (dz + 1) + 3 * (dy + 1) + dx + 1;
   }
 
-  std::size_t size() const { return keys.size(); }
+  std::size_t size() const { return centroids.size(); }
+  Eigen::Vector3i CellOf(std::size_t voxel) const { return layout.CellOf(keys[voxel]); }
   std::span<const std::uint32_t> NeighboursOf(std::size_t voxel) const {
     return std::span(neighbours)
         .subspan(neighbour_begin[voxel], neighbour_begin[voxel + 1] - neighbour_begin[voxel]);
