@@ -27,6 +27,11 @@ class DisjointSets {
     return member;
   }
 
+  // Looks only one step far: false does not mean that it is not.
+  bool IsKnownToBeOf(std::uint32_t member, std::uint32_t representative) const {
+    return parent_[member] == representative;
+  }
+
   void Join(std::uint32_t a, std::uint32_t b) { JoinRepresentatives(Find(a), Find(b)); }
 
   // The same for two that are known to represent their sets; returns who represents both.

@@ -199,6 +199,7 @@ std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
         for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
           if (other >= voxel) break;  // They ascend.
           if (labels[other] != label) continue;
+          if (sets.IsKnownToBeOf(other, representative)) continue;
           if (other < first) {
             seams[chunk].emplace_back(voxel, other);
             continue;

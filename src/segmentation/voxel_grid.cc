@@ -279,38 +279,28 @@ class NeighbourWalk {
 };
 
 void FindNeighbours(int num_threads, VoxelGrid& grid) {
-  const std::size_t num_chunks = (grid.size() + kGrain - 1) / kGrain;
-  std::vector<std::vector<std::uint32_t>> found(num_chunks);
+  constexpr std::size_t kSize = VoxelNeighbours::kChunkSize;
+  constexpr std::size_t kUsualNeighbours = 16;
+  std::vector<VoxelNeighbours::Chunk> chunks((grid.size() + kSize - 1) / kSize);
   grid.neighbour_bits.resize(grid.size());
-  const auto last_of = [&](std::size_t chunk) {
-    return std::min((chunk + 1) * kGrain, grid.size());
-  };
   // So that three keys may be looked at from any place on. None is near a voxel.
   grid.keys.insert(grid.keys.end(), 3, std::numeric_limits<std::uint64_t>::max());
-  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      constexpr std::size_t kUsualNeighbours = 12;
-      found[chunk].reserve(kUsualNeighbours * kGrain);
-      NeighbourWalk walk(grid.keys, grid.layout, chunk * kGrain);
-      for (std::size_t voxel = chunk * kGrain; voxel < last_of(chunk); ++voxel) {
-        grid.neighbour_bits[voxel] = walk.Collect(voxel, found[chunk]);
+  ParallelFor(chunks.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      VoxelNeighbours::Chunk& chunk = chunks[i];
+      const std::size_t first = i * kSize;
+      const std::size_t last = std::min(first + kSize, grid.size());
+      chunk.begin.reserve(last - first + 1);
+      chunk.indices.reserve(kUsualNeighbours * (last - first));
+      NeighbourWalk walk(grid.keys, grid.layout, first);
+      for (std::size_t voxel = first; voxel < last; ++voxel) {
+        grid.neighbour_bits[voxel] = walk.Collect(voxel, chunk.indices);
+        chunk.begin.push_back(static_cast<std::uint32_t>(chunk.indices.size()));
       }
     }
   });
   grid.keys.resize(grid.size());
-  grid.neighbour_begin.resize(grid.size() + 1);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto count = static_cast<std::uint32_t>(std::popcount(grid.neighbour_bits[i])) - 1;
-    grid.neighbour_begin[i + 1] = grid.neighbour_begin[i] + count;
-  }
-  grid.neighbours.resize(grid.neighbour_begin.back());
-  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      std::copy(found[chunk].begin(), found[chunk].end(),
-                grid.neighbours.begin() + grid.neighbour_begin[chunk * kGrain]);
-      found[chunk] = {};
-    }
-  });
+  grid.neighbours = VoxelNeighbours(std::move(chunks));
 }
 
 }  // namespace
@@ -323,7 +313,6 @@ VoxelGrid BuildVoxelGrid(const PointCloudView& cloud, double voxel_size, int num
   VoxelGrid grid;
   grid.voxel_size = voxel_size;
   grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
-  grid.neighbour_begin.assign(1, 0);
   const Bounds bounds = FindBounds(cloud.points, kMaxVoxelsFromZero * voxel_size);
   if (bounds.num_points == 0) return grid;
 
