@@ -57,47 +57,74 @@ std::size_t CountSegments(const std::vector<SegmentId>& segments) {
   return distinct.size();
 }
 
-}  // namespace
+using LccpPoint = pcl::PointXYZRGBA;
 
-PclSegmentation SegmentWithLccp(const PointCloudView& view, const PclLccpOptions& options) {
-  using Point = pcl::PointXYZRGBA;
-  PclSegmentation result;
-  result.segment_of_point.assign(view.points.size(), 0);
-  const semslam::Stopwatch watch;
-  const FinitePoints<Point> input = FindFinite<Point>(view);
+struct PclSupervoxels {
+  std::map<std::uint32_t, pcl::Supervoxel<LccpPoint>::Ptr> supervoxels;  // Empty: no points.
+  std::multimap<std::uint32_t, std::uint32_t> adjacency;
+  pcl::PointCloud<pcl::PointXYZL>::Ptr labelled;  // The finite points; 0: unassigned.
+};
+
+PclSupervoxels FindSupervoxels(const PointCloudView& view,
+                               const FinitePoints<LccpPoint>& input,
+                               const PclLccpOptions& options) {
+  PclSupervoxels result;
   if (input.cloud->empty()) return result;
-
-  pcl::SupervoxelClustering<Point> clustering(options.voxel_size, options.seed_spacing);
+  pcl::SupervoxelClustering<LccpPoint> clustering(options.voxel_size, options.seed_spacing);
   clustering.setUseSingleCameraTransform(false);
   clustering.setInputCloud(input.cloud);
   if (!view.normals.empty()) clustering.setNormalCloud(NormalsOf(view, input.input_index));
   clustering.setColorImportance(0.0F);
   clustering.setSpatialImportance(options.spatial_weight);
   clustering.setNormalImportance(options.normal_weight);
-  std::map<std::uint32_t, pcl::Supervoxel<Point>::Ptr> supervoxels;
-  clustering.extract(supervoxels);
-  if (supervoxels.empty()) return result;
-  std::multimap<std::uint32_t, std::uint32_t> adjacency;
-  clustering.getSupervoxelAdjacency(adjacency);
+  clustering.extract(result.supervoxels);
+  if (result.supervoxels.empty()) return result;
+  clustering.getSupervoxelAdjacency(result.adjacency);
+  result.labelled = clustering.getLabeledCloud();
+  return result;
+}
 
-  pcl::LCCPSegmentation<Point> lccp;
+}  // namespace
+
+PclSegmentation SegmentWithLccp(const PointCloudView& view, const PclLccpOptions& options) {
+  PclSegmentation result;
+  result.segment_of_point.assign(view.points.size(), 0);
+  const semslam::Stopwatch watch;
+  const FinitePoints<LccpPoint> input = FindFinite<LccpPoint>(view);
+  const PclSupervoxels found = FindSupervoxels(view, input, options);
+  if (found.supervoxels.empty()) return result;
+
+  pcl::LCCPSegmentation<LccpPoint> lccp;
   lccp.setConcavityToleranceThreshold(options.concavity_degrees);
   lccp.setSanityCheck(options.sanity_check);
   lccp.setSmoothnessCheck(true, options.voxel_size, options.seed_spacing, options.smoothness);
   lccp.setKFactor(options.extended_convexity);
   lccp.setMinSegmentSize(options.min_supervoxels);
-  lccp.setInputSupervoxels(supervoxels, adjacency);
+  lccp.setInputSupervoxels(found.supervoxels, found.adjacency);
   lccp.segment();
-  const pcl::PointCloud<pcl::PointXYZL>::Ptr labelled = clustering.getLabeledCloud();
-  std::vector<std::uint32_t> supervoxel_of_point;
-  for (const pcl::PointXYZL& point : *labelled) supervoxel_of_point.push_back(point.label);
-  lccp.relabelCloud(*labelled);
-  for (std::size_t i = 0; i < labelled->size(); ++i) {
-    const bool is_assigned = supervoxel_of_point[i] != 0;
-    result.segment_of_point[input.input_index[i]] = is_assigned ? (*labelled)[i].label : 0;
+  pcl::PointCloud<pcl::PointXYZL> relabelled = *found.labelled;
+  lccp.relabelCloud(relabelled);
+  for (std::size_t i = 0; i < relabelled.size(); ++i) {
+    const bool is_assigned = (*found.labelled)[i].label != 0;
+    result.segment_of_point[input.input_index[i]] = is_assigned ? relabelled[i].label : 0;
   }
   result.milliseconds = watch.Milliseconds();
   result.num_segments = CountSegments(result.segment_of_point);
+  return result;
+}
+
+PclSegmentation SupervoxelsOfPcl(const PointCloudView& view, const PclLccpOptions& options) {
+  PclSegmentation result;
+  result.segment_of_point.assign(view.points.size(), 0);
+  const semslam::Stopwatch watch;
+  const FinitePoints<LccpPoint> input = FindFinite<LccpPoint>(view);
+  const PclSupervoxels found = FindSupervoxels(view, input, options);
+  result.num_segments = found.supervoxels.size();
+  if (found.supervoxels.empty()) return result;
+  for (std::size_t i = 0; i < found.labelled->size(); ++i) {
+    result.segment_of_point[input.input_index[i]] = (*found.labelled)[i].label;
+  }
+  result.milliseconds = watch.Milliseconds();
   return result;
 }
 

@@ -36,6 +36,10 @@ struct PclLccpOptions {
 PclSegmentation SegmentWithLccp(const semslam::PointCloudView& cloud,
                                 const PclLccpOptions& options = {});
 
+// The supervoxels of the same, as they are; `options` has more than they need.
+PclSegmentation SupervoxelsOfPcl(const semslam::PointCloudView& cloud,
+                                 const PclLccpOptions& options = {});
+
 // Region growing by smoothness (Rabbani et al. 2006); normals are estimated. As in PCL's tutorial
 // but for the angle: the tutorial's 3 degrees leave crumbs of the depth images in
 // evaluate_segmentation's table, 10 and more join everything.

@@ -98,8 +98,12 @@ void ShowStep(std::string_view step) {
   std::cerr << "\r\033[K" << step << (step == "done" ? "\r\033[K" : " ...") << std::flush;
 }
 
-std::vector<semslam::SegmentId> SegmentWithGraph(const semslam::CloudColumns& cloud,
-                                                 const std::string& planes_file) {
+struct Segments {
+  std::vector<semslam::SegmentId> of_point;
+  std::string planes_json;  // With graph only.
+};
+
+Segments SegmentWithGraph(const semslam::CloudColumns& cloud) {
   const std::vector<Eigen::Vector3f> views = ViewerDirections(cloud.positions, cloud.normals);
   const semslam::Segmenter segmenter{semslam::Segmenter::Options()};
   semslam::Segmentation result = segmenter.Segment({cloud.positions, views}, ShowStep);
@@ -107,30 +111,31 @@ std::vector<semslam::SegmentId> SegmentWithGraph(const semslam::CloudColumns& cl
   std::cout << result.segments.size() << " segments, " << result.planes.size() << " planes, "
             << result.num_supervoxels << " supervoxels of " << result.num_voxels << " voxels of "
             << result.voxel_size << " m\n";
-  if (!planes_file.empty()) semslam::WriteFileAtomically(planes_file, PlanesJson(result));
-  return std::move(result.segment_of_point);
+  return {std::move(result.segment_of_point), PlanesJson(result)};
 }
 
-std::vector<semslam::SegmentId> Segment(const semslam::CloudColumns& cloud,
-                                        const Arguments& arguments) {
-  if (arguments.method == Method::kGraph) return SegmentWithGraph(cloud, arguments.planes);
+Segments Segment(const semslam::CloudColumns& cloud, const Arguments& arguments) {
+  if (arguments.method == Method::kGraph) return SegmentWithGraph(cloud);
   const semslam::PointCloudView view = {cloud.positions, cloud.normals};
   PclSegmentation result =
       arguments.method == Method::kLccp ? SegmentWithLccp(view) : SegmentWithRegionGrowing(view);
   std::cout << result.num_segments << " segments\n";
-  return std::move(result.segment_of_point);
+  return {std::move(result.segment_of_point), {}};
 }
 
 void Write(const Arguments& arguments,
            const semslam::CloudColumns& cloud,
-           const std::vector<semslam::SegmentId>& segments) {
+           const Segments& segments) {
   const semslam::CloudView view = {.positions = cloud.positions,
                                    .colors = cloud.colors,
                                    .normals = cloud.normals,
                                    .labels = cloud.labels,
-                                   .segments = segments};
+                                   .segments = segments.of_point};
   IsPly(arguments.output) ? semslam::WritePly(arguments.output, view)
                           : semslam::WritePcd(arguments.output, view);
+  if (!arguments.planes.empty()) {
+    semslam::WriteFileAtomically(arguments.planes, segments.planes_json);
+  }
   if (!arguments.picture.empty()) WriteSegmentPicture(arguments.picture, view);
 }
 
@@ -147,7 +152,7 @@ int SegmentFile(const Arguments& arguments) {
   }
   std::cout << cloud.positions.size() << " points\n" << std::flush;
   const semslam::Stopwatch watch;
-  const std::vector<semslam::SegmentId> segments = Segment(cloud, arguments);
+  const Segments segments = Segment(cloud, arguments);
   if (interrupt_requested != 0) throw Interrupted();
   std::cout << watch.Milliseconds() << " ms\n";
   Write(arguments, cloud, segments);

@@ -83,6 +83,14 @@ bool IsSeenWell(const Voxel& voxel, const VoxelMap::Options& options) {
          static_cast<float>(voxel.weight) >= options.min_weight;
 }
 
+void Reserve(MapCloud& cloud, std::size_t num_points) {
+  cloud.positions.reserve(num_points);
+  cloud.normals.reserve(num_points);
+  cloud.colors.reserve(num_points);
+  cloud.weights.reserve(num_points);
+  cloud.num_views.reserve(num_points);
+}
+
 void AppendTo(MapCloud& cloud, const Voxel& voxel) {
   const double weight = voxel.weight;
   Eigen::Vector3d offset;
@@ -178,11 +186,7 @@ MapCloud VoxelMap::Extract() const {
             [](const Voxel* a, const Voxel* b) { return a->key() < b->key(); });
   MapCloud cloud;
   cloud.voxel_size = options_.voxel_size;
-  cloud.positions.reserve(voxels.size());
-  cloud.normals.reserve(voxels.size());
-  cloud.colors.reserve(voxels.size());
-  cloud.weights.reserve(voxels.size());
-  cloud.num_views.reserve(voxels.size());
+  Reserve(cloud, voxels.size());
   for (const Voxel* voxel : voxels) AppendTo(cloud, *voxel);
   return cloud;
 }
@@ -190,8 +194,15 @@ MapCloud VoxelMap::Extract() const {
 MapCloud VoxelMap::Extract(std::span<const std::uint64_t> keys) const {
   MapCloud cloud;
   cloud.voxel_size = options_.voxel_size;
-  for (const std::uint64_t key : keys) {
-    const Voxel* voxel = table_->Find(key);
+  Reserve(cloud, keys.size());
+  const bool may_prefetch = table_->num_voxels() > 0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    constexpr std::size_t kAhead = 8;  // The map is far larger than a cache.
+    if (may_prefetch && i + 2 * kAhead < keys.size()) {
+      table_->PrefetchSlot(keys[i + 2 * kAhead]);
+      table_->PrefetchVoxel(keys[i + kAhead]);
+    }
+    const Voxel* voxel = table_->Find(keys[i]);
     if (voxel != nullptr && voxel->weight != 0) {
       AppendTo(cloud, *voxel);
       if (IsSeenWell(*voxel, options_)) continue;

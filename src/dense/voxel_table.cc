@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "semslam/dense/voxel_index.h"
-
 namespace semslam {
 namespace {
 
@@ -100,7 +98,7 @@ Voxel& VoxelTable::Append(std::uint64_t key) {
 
 std::size_t VoxelTable::SlotOf(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = VoxelKey::Hash(key) & mask;
+  std::size_t slot = HomeOf(key);
   while (slots_[slot] != 0 && At(slots_[slot] - 1).key() != key) slot = (slot + 1) & mask;
   return slot;
 }

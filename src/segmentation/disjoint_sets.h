@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace semslam {
@@ -26,10 +27,25 @@ class DisjointSets {
     return member;
   }
 
-  void Join(std::uint32_t a, std::uint32_t b) {
-    a = Find(a);
-    b = Find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
+  // Looks only one step far: false does not mean that it is not.
+  bool IsKnownToBeOf(std::uint32_t member, std::uint32_t representative) const {
+    return parent_[member] == representative;
+  }
+
+  void Join(std::uint32_t a, std::uint32_t b) { JoinRepresentatives(Find(a), Find(b)); }
+
+  // The same for two that are known to represent their sets; returns who represents both.
+  std::uint32_t JoinRepresentatives(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t least = std::min(a, b);
+    parent_[std::max(a, b)] = least;
+    return least;
+  }
+
+  // The representative of every member.
+  std::vector<std::uint32_t> Representatives() && {
+    // A parent is never above its member, so that it is done already.
+    for (std::uint32_t& parent : parent_) parent = parent_[parent];
+    return std::move(parent_);
   }
 
  private:

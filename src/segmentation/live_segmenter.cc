@@ -12,17 +12,10 @@
 
 #include "semslam/base/check.h"
 
+#include "segmentation/live_keys.h"
+
 namespace semslam {
 namespace {
-
-constexpr int kAxisBits = 21;
-
-std::array<std::int64_t, 3> CellOf(std::uint64_t key) {
-  constexpr std::uint64_t kMask = (std::uint64_t{1} << kAxisBits) - 1;
-  return {static_cast<std::int64_t>(key >> (2 * kAxisBits) & kMask),
-          static_cast<std::int64_t>(key >> kAxisBits & kMask),
-          static_cast<std::int64_t>(key & kMask)};
-}
 
 // Calls visit(key) for the keys around one; at the edge of the key's range those of other blocks,
 // kilometres away, are among them, which does no harm.
@@ -32,8 +25,8 @@ void VisitAround(std::uint64_t key, const Visitor& visit) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dz = -1; dz <= 1; ++dz) {
         if (dx == 0 && dy == 0 && dz == 0) continue;
-        const std::int64_t step = std::int64_t{dx} * (std::int64_t{1} << (2 * kAxisBits)) +
-                                  std::int64_t{dy} * (std::int64_t{1} << kAxisBits) + dz;
+        const std::int64_t step = std::int64_t{dx} * (std::int64_t{1} << (2 * kVoxelAxisBits)) +
+                                  std::int64_t{dy} * (std::int64_t{1} << kVoxelAxisBits) + dz;
         visit(key + static_cast<std::uint64_t>(step));
       }
     }
@@ -48,13 +41,6 @@ std::int64_t SquaredDistance(std::uint64_t a, std::uint64_t b) {
     sum += (from[axis] - to[axis]) * (from[axis] - to[axis]);
   }
   return sum;
-}
-
-// The entry of a key in a list that ascends by key, or where it belongs.
-template <typename Voxels>
-auto Place(Voxels& voxels, std::uint64_t key) {
-  return std::lower_bound(voxels.begin(), voxels.end(), key,
-                          [](const auto& voxel, std::uint64_t k) { return voxel.first < k; });
 }
 
 }  // namespace
@@ -151,8 +137,8 @@ LiveSegmenter::LiveSegmenter(const Options& options) : options_(options) {
 
 std::uint64_t LiveSegmenter::BlockOf(std::uint64_t voxel) const {
   const auto cell = CellOf(voxel);
-  return static_cast<std::uint64_t>(cell[0] >> block_bits_) << (2 * kAxisBits) |
-         static_cast<std::uint64_t>(cell[1] >> block_bits_) << kAxisBits |
+  return static_cast<std::uint64_t>(cell[0] >> block_bits_) << (2 * kVoxelAxisBits) |
+         static_cast<std::uint64_t>(cell[1] >> block_bits_) << kVoxelAxisBits |
          static_cast<std::uint64_t>(cell[2] >> block_bits_);
 }
 
@@ -176,69 +162,6 @@ void LiveSegmenter::SetId(std::pair<std::uint64_t, SegmentId>& voxel, SegmentId 
   if (voxel.second != 0) ++num_voxels_of_[voxel.second];
 }
 
-// Remembers the block of the last voxel: that of the next one is mostly the same.
-class LiveSegmenter::BlockFinder {
- public:
-  explicit BlockFinder(LiveSegmenter& live) : live_(live) {}
-
-  // Null if there is none.
-  Block* Find(std::uint64_t voxel) {
-    const std::uint64_t key = live_.BlockOf(voxel);
-    if (block_ != nullptr && key == key_) return block_;
-    const auto found = live_.blocks_.find(key);
-    key_ = key;
-    block_ = found == live_.blocks_.end() ? nullptr : &found->second;
-    return block_;
-  }
-  Block& FindOrMake(std::uint64_t voxel) {
-    if (Find(voxel) == nullptr) block_ = &live_.blocks_[key_];
-    return *block_;
-  }
-  // Null if it is not known.
-  std::pair<std::uint64_t, SegmentId>* FindVoxel(std::uint64_t voxel) {
-    Block* block = Find(voxel);
-    if (block == nullptr) return nullptr;
-    const auto place = Place(block->voxels, voxel);
-    return place == block->voxels.end() || place->first != voxel ? nullptr : &*place;
-  }
-
- private:
-  LiveSegmenter& live_;
-  std::uint64_t key_ = 0;
-  Block* block_ = nullptr;
-};
-
-void LiveSegmenter::Update(const Changes& changes) {
-  BlockFinder finder(*this);
-  std::vector<std::pair<std::uint64_t, SegmentId>> carried;
-  for (const auto& [from, to] : changes.moved) {
-    const auto* voxel = finder.FindVoxel(from);
-    if (voxel != nullptr && voxel->second != 0) carried.emplace_back(to, voxel->second);
-  }
-  for (const std::uint64_t key : changes.vanished) {
-    auto* voxel = finder.FindVoxel(key);
-    if (voxel == nullptr) continue;
-    SetId(*voxel, 0);
-    Block& block = *finder.Find(key);
-    block.voxels.erase(block.voxels.begin() + (voxel - block.voxels.data()));
-    --num_voxels_;
-    ++block.num_changed;
-  }
-  for (const std::uint64_t key : changes.appeared) {
-    Block& block = finder.FindOrMake(key);
-    const auto place = Place(block.voxels, key);
-    if (place != block.voxels.end() && place->first == key) continue;
-    block.voxels.insert(place, {key, 0});
-    ++num_voxels_;
-    ++block.num_changed;
-  }
-  for (const auto& [key, id] : carried) {
-    auto* voxel = finder.FindVoxel(key);
-    if (voxel != nullptr && voxel->second == 0) SetId(*voxel, id);
-  }
-  std::erase_if(blocks_, [](const auto& item) { return item.second.voxels.empty(); });
-}
-
 std::size_t LiveSegmenter::ChangeOf(const Block& block) const {
   const auto changed = static_cast<double>(block.num_changed);
   const auto size = static_cast<double>(block.voxels.size());
@@ -257,30 +180,36 @@ LiveSegmenter::Region LiveSegmenter::Collect(std::vector<std::uint64_t> blocks) 
   return region;
 }
 
+void LiveSegmenter::Rank(std::uint64_t key, Block& block) {
+  const std::size_t change = ChangeOf(block);
+  if (change == block.rank) return;
+  if (block.rank > 0) changed_.erase({block.rank, key});
+  if (change > 0) changed_.emplace(change, key);
+  block.rank = change;
+}
+
 LiveSegmenter::Region LiveSegmenter::NextRegion() const {
-  std::uint64_t start = 0;
-  std::size_t most = 0;
-  for (const auto& [key, block] : blocks_) {
-    if (ChangeOf(block) <= most) continue;
-    most = ChangeOf(block);
-    start = key;
-  }
-  if (most == 0) return {};
-  // From there over adjacent blocks, the nearest first, as far as the voxels go.
+  constexpr std::size_t kUpdatesOfAVoxel = 12;  // That cost as much as to segment it.
+  const std::size_t max_voxels =
+      options_.max_voxels - std::min(options_.max_voxels / 2, num_updated_ / kUpdatesOfAVoxel);
   std::vector<std::uint64_t> taken;
-  std::set<std::uint64_t> known = {start};
-  std::set<std::pair<std::int64_t, std::uint64_t>> open = {{0, start}};
+  std::set<std::uint64_t> known;
   std::size_t num_voxels = 0;
-  while (!open.empty()) {
-    const std::uint64_t key = open.begin()->second;
-    open.erase(open.begin());
-    num_voxels += blocks_.at(key).voxels.size();
-    if (num_voxels > options_.max_voxels && !taken.empty()) break;
-    taken.push_back(key);
-    VisitAround(key, [&](std::uint64_t other) {
-      if (!blocks_.contains(other) || !known.insert(other).second) return;
-      open.emplace(SquaredDistance(start, other), other);
-    });
+  for (const auto& [change, start] : changed_) {
+    if (!known.insert(start).second) continue;
+    // From there over adjacent blocks, the nearest first, as far as the voxels go.
+    std::set<std::pair<std::int64_t, std::uint64_t>> open = {{0, start}};
+    while (!open.empty()) {
+      const std::uint64_t key = open.begin()->second;
+      open.erase(open.begin());
+      num_voxels += blocks_.at(key).voxels.size();
+      if (num_voxels > max_voxels && !taken.empty()) return Collect(std::move(taken));
+      taken.push_back(key);
+      VisitAround(key, [&, start = start](std::uint64_t other) {
+        if (!blocks_.contains(other) || !known.insert(other).second) return;
+        open.emplace(SquaredDistance(start, other), other);
+      });
+    }
   }
   return Collect(std::move(taken));
 }
@@ -326,10 +255,14 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
     is_any_inside = true;
     for (auto& voxel : block.voxels) SetId(voxel, ids[found.segment_of_point[i++]]);
     block.num_changed = 0;
+    Rank(key, block);
   }
   if (is_any_inside) return;
   // Blocks too full for a region with a border: not again and again.
-  for (const std::uint64_t key : region.blocks) blocks_.at(key).num_changed = 0;
+  for (const std::uint64_t key : region.blocks) {
+    blocks_.at(key).num_changed = 0;
+    Rank(key, blocks_.at(key));
+  }
 }
 
 SegmentId LiveSegmenter::IdOf(std::uint64_t voxel) const {

@@ -34,13 +34,26 @@ struct PatchSums {
   }
 };
 
-std::vector<Patch> MakePatches(const VoxelGrid& grid,
-                               const std::vector<Eigen::Vector3f>& normals,
-                               const Supervoxels& supervoxels,
-                               int num_threads) {
-  std::vector<PatchSums> sums(supervoxels.num_patches);
+// Which patches are to be made, and from which voxels.
+struct Work {
+  const VoxelGrid& grid;
+  const std::vector<Eigen::Vector3f>& normals;
+  const Supervoxels& supervoxels;
+  const std::vector<std::uint8_t> is_open;  // By patch. Not of bool: it is read all the time.
+  int num_threads;
+
+  // kNoPatch for a voxel that counts for none.
+  std::uint32_t OpenPatchOf(std::size_t voxel) const {
+    const std::uint32_t patch = supervoxels.patch_of_voxel[voxel];
+    return patch == kNoPatch || is_open[patch] == 0 ? kNoPatch : patch;
+  }
+};
+
+void MakePatches(const Work& work, std::vector<Patch>& patches) {
+  const VoxelGrid& grid = work.grid;
+  std::vector<PatchSums> sums(patches.size());
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
+    const std::uint32_t index = work.OpenPatchOf(voxel);
     if (index == kNoPatch) continue;
     PatchSums& patch = sums[index];
     const Eigen::Vector3d p = grid.centroids[voxel].cast<double>();
@@ -48,11 +61,11 @@ std::vector<Patch> MakePatches(const VoxelGrid& grid,
     patch.sum += p;
     patch.squares += p.cwiseProduct(p);
     patch.products += Eigen::Vector3d(p.y() * p.z(), p.z() * p.x(), p.x() * p.y());
-    patch.normal += normals[voxel].cast<double>();
+    patch.normal += work.normals[voxel].cast<double>();
   }
-  std::vector<Patch> patches(supervoxels.num_patches);
-  ParallelFor(patches.size(), 256, num_threads, [&](std::size_t first, std::size_t last) {
+  ParallelFor(patches.size(), 256, work.num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
+      if (work.is_open[i] == 0) continue;
       Patch& patch = patches[i];
       patch.moments = sums[i].ToMoments();
       patch.num_voxels = static_cast<std::size_t>(sums[i].count);
@@ -63,7 +76,6 @@ std::vector<Patch> MakePatches(const VoxelGrid& grid,
       }
     }
   });
-  return patches;
 }
 
 // Number of voxels of the surface that stand in one column with `voxel`, which is one of them.
@@ -91,26 +103,24 @@ int CountColumn(const VoxelGrid& grid,
 // The area of a patch is that of its shadow along the axis its normal is nearest to, over the
 // cosine between them. A column of the shadow is shared by all voxels of the surface in it, so that
 // a surface that noise has made several voxels thick is counted once.
-void MeasureAreas(const VoxelGrid& grid,
-                  const std::vector<Eigen::Vector3f>& normals,
-                  const Supervoxels& supervoxels,
-                  int num_threads,
-                  std::vector<Patch>& patches) {
+void MeasureAreas(const Work& work, std::vector<Patch>& patches) {
+  const VoxelGrid& grid = work.grid;
   std::vector<float> shares(grid.size());
-  ParallelFor(grid.size(), 8192, num_threads, [&](std::size_t first, std::size_t last) {
+  ParallelFor(grid.size(), 8192, work.num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
+      const std::uint32_t index = work.OpenPatchOf(voxel);
       if (index == kNoPatch) continue;
       const Eigen::Vector3f normal = patches[index].normal.cast<float>();
       int axis = 0;
       const float cosine = normal.cwiseAbs().maxCoeff(&axis);
-      const int count = CountColumn(grid, normals, normal, static_cast<std::uint32_t>(voxel), axis);
+      const int count =
+          CountColumn(grid, work.normals, normal, static_cast<std::uint32_t>(voxel), axis);
       shares[voxel] = 1.0F / (static_cast<float>(count) * (cosine > 0 ? cosine : 1.0F));
     }
   });
   const double face = grid.voxel_size * grid.voxel_size;
   for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    const std::uint32_t index = supervoxels.patch_of_voxel[voxel];
+    const std::uint32_t index = work.OpenPatchOf(voxel);
     if (index != kNoPatch) patches[index].area += face * static_cast<double>(shares[voxel]);
   }
 }
@@ -119,39 +129,48 @@ void MeasureAreas(const VoxelGrid& grid,
 struct Contacts {
   KeyNumbers pairs{0};
   std::vector<std::uint32_t> counts;
+  std::uint64_t last_pair = 0;  // Is none: the lower patch comes first.
+  std::uint32_t last_number = 0;
 
   void Add(std::uint64_t pair, std::uint32_t count) {
-    const std::uint32_t number = pairs.Insert(pair);
-    if (number == counts.size()) counts.push_back(0);
-    counts[number] += count;
+    if (pair != last_pair) {  // Mostly it is the same.
+      last_pair = pair;
+      last_number = pairs.Insert(pair);
+      if (last_number == counts.size()) counts.push_back(0);
+    }
+    counts[last_number] += count;
   }
 };
 
-void CountContacts(const VoxelGrid& grid,
-                   const Supervoxels& supervoxels,
-                   std::size_t first,
-                   std::size_t last,
-                   Contacts& contacts) {
+// Of open patches, among each other and with the others.
+void CountContacts(const Work& work, std::size_t first, std::size_t last, Contacts& contacts) {
+  const std::vector<std::uint32_t>& patch_of_voxel = work.supervoxels.patch_of_voxel;
   for (std::size_t voxel = first; voxel < last; ++voxel) {
-    const std::uint32_t a = supervoxels.patch_of_voxel[voxel];
+    const std::uint32_t a = work.OpenPatchOf(voxel);
     if (a == kNoPatch) continue;
-    for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
-      const std::uint32_t b = supervoxels.patch_of_voxel[other];
-      // Both directions of a pair of voxels are seen; the one from the lower patch counts.
-      if (b != kNoPatch && b > a) contacts.Add(std::uint64_t{a} << 32 | b, 1);
+    for (const std::uint32_t other : work.grid.NeighboursOf(voxel)) {
+      const std::uint32_t b = patch_of_voxel[other];
+      if (b == a || b == kNoPatch) continue;
+      // Between open patches both directions of a pair of voxels are seen: that from the lower
+      // patch counts.
+      if (b > a) {
+        contacts.Add(std::uint64_t{a} << 32 | b, 1);
+      } else if (work.is_open[b] == 0) {
+        contacts.Add(std::uint64_t{b} << 32 | a, 1);
+      }
     }
   }
 }
 
-std::vector<PatchEdge> FindEdges(const VoxelGrid& grid,
-                                 const Supervoxels& supervoxels,
-                                 int num_threads) {
+// Adds those of open patches to `edges`.
+void FindEdges(const Work& work, std::vector<PatchEdge>& edges) {
   constexpr std::size_t kNumChunks = 8;
+  const std::size_t size = work.grid.size();
   std::vector<Contacts> contacts(kNumChunks);
-  ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+  ParallelFor(kNumChunks, 1, work.num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      CountContacts(grid, supervoxels, grid.size() * chunk / kNumChunks,
-                    grid.size() * (chunk + 1) / kNumChunks, contacts[chunk]);
+      CountContacts(work, size * chunk / kNumChunks, size * (chunk + 1) / kNumChunks,
+                    contacts[chunk]);
     }
   });
   Contacts all;
@@ -160,8 +179,7 @@ std::vector<PatchEdge> FindEdges(const VoxelGrid& grid,
       all.Add(chunk.pairs.keys()[i], chunk.counts[i]);
     }
   }
-  std::vector<PatchEdge> edges;
-  edges.reserve(all.counts.size());
+  edges.reserve(edges.size() + all.counts.size());
   for (std::size_t i = 0; i < all.counts.size(); ++i) {
     const std::uint64_t pair = all.pairs.keys()[i];
     edges.push_back(
@@ -170,7 +188,12 @@ std::vector<PatchEdge> FindEdges(const VoxelGrid& grid,
   std::sort(edges.begin(), edges.end(), [](const PatchEdge& first, const PatchEdge& second) {
     return std::pair(first.a, first.b) < std::pair(second.a, second.b);
   });
-  return edges;
+}
+
+void Complete(const Work& work, PatchGraph& graph) {
+  MakePatches(work, graph.patches);
+  FindEdges(work, graph.edges);
+  MeasureAreas(work, graph.patches);
 }
 
 }  // namespace
@@ -179,9 +202,35 @@ PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
                            const Supervoxels& supervoxels,
                            int num_threads) {
-  PatchGraph graph{MakePatches(grid, normals, supervoxels, num_threads),
-                   FindEdges(grid, supervoxels, num_threads)};
-  MeasureAreas(grid, normals, supervoxels, num_threads, graph.patches);
+  PatchGraph graph{std::vector<Patch>(supervoxels.num_patches), {}};
+  std::vector<std::uint8_t> is_open(supervoxels.num_patches, 1);
+  Complete({grid, normals, supervoxels, std::move(is_open), num_threads}, graph);
+  return graph;
+}
+
+PatchGraph UpdatePatchGraph(const VoxelGrid& grid,
+                            const std::vector<Eigen::Vector3f>& normals,
+                            const Supervoxels& supervoxels,
+                            const PatchGraph& old_graph,
+                            const std::vector<std::uint32_t>& old_number,
+                            int num_threads) {
+  PatchGraph graph{std::vector<Patch>(supervoxels.num_patches), {}};
+  std::vector<std::uint8_t> is_open(supervoxels.num_patches, 0);
+  std::vector<std::uint32_t> new_number(old_graph.patches.size(), kNoPatch);
+  for (std::uint32_t i = 0; i < supervoxels.num_patches; ++i) {
+    if (old_number[i] == kNoPatch) {
+      is_open[i] = 1;
+    } else {
+      graph.patches[i] = old_graph.patches[old_number[i]];
+      new_number[old_number[i]] = i;
+    }
+  }
+  for (const PatchEdge& edge : old_graph.edges) {
+    const std::uint32_t a = new_number[edge.a];
+    const std::uint32_t b = new_number[edge.b];
+    if (a != kNoPatch && b != kNoPatch) graph.edges.push_back({a, b, edge.num_contacts});
+  }
+  Complete({grid, normals, supervoxels, std::move(is_open), num_threads}, graph);
   return graph;
 }
 

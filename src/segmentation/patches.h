@@ -41,4 +41,14 @@ PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const Supervoxels& supervoxels,
                            int num_threads);
 
+// The same graph, from that of other supervoxels most of which have not changed: `old_number` tells
+// of every patch its number in `old_graph`, where it had the same voxels; kNoPatch for the others.
+// Numbers ascend as the old ones do.
+PatchGraph UpdatePatchGraph(const VoxelGrid& grid,
+                            const std::vector<Eigen::Vector3f>& normals,
+                            const Supervoxels& supervoxels,
+                            const PatchGraph& old_graph,
+                            const std::vector<std::uint32_t>& old_number,
+                            int num_threads);
+
 }  // namespace semslam

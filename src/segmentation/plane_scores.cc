@@ -30,17 +30,11 @@ std::vector<double> SoftSupports(const std::vector<Patch>& patches,
                                  std::span<const Plane> planes,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads) {
-  // Weights below exp(-10) are not worth an exponential.
-  const double max_cost = 20 * options.tolerance;
   const PatchTable table(patches);
   std::vector<double> supports(planes.size(), 0.0);
   ParallelFor(planes.size(), 16, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t m = first; m < last; ++m) {
-      table.Visit(planes[m], {max_cost, options.min_normal_cosine}, [&](std::size_t i) {
-        const double cost = PatchCost(patches[i], planes[m], options.min_normal_cosine);
-        if (cost > max_cost) return;
-        supports[m] += patches[i].area * SoftWeight(cost, options.tolerance);
-      });
+      supports[m] = table.SoftSupport(planes[m], options.tolerance, options.min_normal_cosine);
     }
   });
   return supports;

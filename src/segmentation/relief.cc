@@ -248,24 +248,43 @@ class ReliefCut {
   std::vector<std::uint8_t> is_raised_;
 };
 
-// Renumbers the patches that have voxels left.
-CutPatches Compact(Supervoxels supervoxels, std::vector<std::uint32_t> plane_labels) {
-  plane_labels.resize(supervoxels.num_patches, 0);
-  std::vector<bool> is_used(supervoxels.num_patches, false);
-  for (const std::uint32_t patch : supervoxels.patch_of_voxel) {
-    if (patch != kNoPatch) is_used[patch] = true;
+// Whether the patches, by their numbers now, have voxels and have others than before.
+struct PatchChanges {
+  std::vector<bool> is_used;
+  std::vector<bool> has_changed;
+};
+
+PatchChanges CompareVoxels(const Supervoxels& before, const Supervoxels& now) {
+  PatchChanges changes{std::vector<bool>(now.num_patches), std::vector<bool>(now.num_patches)};
+  for (std::size_t voxel = 0; voxel < now.patch_of_voxel.size(); ++voxel) {
+    const std::uint32_t from = before.patch_of_voxel[voxel];
+    const std::uint32_t to = now.patch_of_voxel[voxel];
+    if (to != kNoPatch) changes.is_used[to] = true;
+    if (from == to) continue;
+    if (from != kNoPatch) changes.has_changed[from] = true;
+    if (to != kNoPatch) changes.has_changed[to] = true;
   }
+  return changes;
+}
+
+// Renumbers the patches that have voxels left.
+CutPatches Compact(const Supervoxels& before,
+                   Supervoxels now,
+                   std::vector<std::uint32_t> plane_labels) {
+  plane_labels.resize(now.num_patches, 0);
+  const PatchChanges changes = CompareVoxels(before, now);
   CutPatches result;
-  std::vector<std::uint32_t> new_number(supervoxels.num_patches, kNoPatch);
-  for (std::uint32_t patch = 0; patch < supervoxels.num_patches; ++patch) {
-    if (!is_used[patch]) continue;
+  std::vector<std::uint32_t> new_number(now.num_patches, kNoPatch);
+  for (std::uint32_t patch = 0; patch < now.num_patches; ++patch) {
+    if (!changes.is_used[patch]) continue;
     new_number[patch] = static_cast<std::uint32_t>(result.plane_labels.size());
     result.plane_labels.push_back(plane_labels[patch]);
+    result.old_number.push_back(changes.has_changed[patch] ? kNoPatch : patch);
   }
-  for (std::uint32_t& patch : supervoxels.patch_of_voxel) {
+  for (std::uint32_t& patch : now.patch_of_voxel) {
     if (patch != kNoPatch) patch = new_number[patch];
   }
-  result.supervoxels.patch_of_voxel = std::move(supervoxels.patch_of_voxel);
+  result.supervoxels.patch_of_voxel = std::move(now.patch_of_voxel);
   result.supervoxels.num_patches = static_cast<std::uint32_t>(result.plane_labels.size());
   return result;
 }
@@ -283,7 +302,7 @@ CutPatches CutAtRelief(const VoxelGrid& grid,
   const SurfacePieces pieces =
       FindStructuralPieces(graph, planes, plane_labels, min_structural_area);
   ReliefCut cut(grid, supervoxels, graph, pieces, options, num_threads);
-  return Compact(cut.Run(), plane_labels);
+  return Compact(supervoxels, cut.Run(), plane_labels);
 }
 
 }  // namespace semslam

@@ -17,6 +17,7 @@ namespace semslam {
 struct CutPatches {
   Supervoxels supervoxels;
   std::vector<std::uint32_t> plane_labels;
+  std::vector<std::uint32_t> old_number;  // Of the patches that are as before; of others kNoPatch.
 };
 
 // A keyboard is hardly higher than the tolerance of the planes, and a patch is as large as a mouse.

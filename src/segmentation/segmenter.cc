@@ -91,7 +91,7 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver&
                   options_.components.min_structural_area, options_.relief, num_threads);
   supervoxels = std::move(cut.supervoxels);
   plane_labels = std::move(cut.plane_labels);
-  graph = BuildPatchGraph(grid, normals, supervoxels, num_threads);
+  graph = UpdatePatchGraph(grid, normals, supervoxels, graph, cut.old_number, num_threads);
   result.times.relief = Lap(watch);
 
   begin("segments");
@@ -100,7 +100,8 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver&
   result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel);
   result.times.components = Lap(watch);
   result.planes = ToCloudFrame(planes, graph, plane_labels, grid.origin);
-  result.segments = Summarise(grid, graph, components, result.planes, segment_of_voxel);
+  result.segments = Summarise(grid, graph, components, result.planes, segment_of_voxel,
+                              result.segment_of_point, num_threads);
   result.voxel_size = grid.voxel_size;
   result.num_voxels = grid.size();
   result.num_supervoxels = graph.patches.size();

@@ -4,23 +4,41 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+
+#include "semslam/base/parallel.h"
 
 namespace semslam {
 namespace {
 
-// Voxel centroids of each segment, in the cloud's coordinates.
-std::vector<std::vector<Eigen::Vector3d>> CollectPoints(
-    const VoxelGrid& grid,
-    const std::vector<SegmentId>& segment_of_voxel,
-    std::size_t num_segments) {
-  std::vector<std::size_t> counts(num_segments + 1, 0);
-  for (const SegmentId id : segment_of_voxel) ++counts[id];
-  std::vector<std::vector<Eigen::Vector3d>> points(num_segments);
-  for (std::size_t i = 0; i < num_segments; ++i) points[i].reserve(counts[i + 1]);
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    if (segment_of_voxel[voxel] == 0) continue;
-    points[segment_of_voxel[voxel] - 1].push_back(grid.origin +
-                                                  grid.centroids[voxel].cast<double>());
+// The voxels of all segments, segment by segment: those of id i are voxels[begin[i] .. begin[i +
+// 1]).
+struct VoxelsBySegment {
+  std::vector<std::uint32_t> voxels;
+  std::vector<std::size_t> begin;
+};
+
+VoxelsBySegment SortBySegment(const std::vector<SegmentId>& segment_of_voxel,
+                              std::size_t num_segments) {
+  VoxelsBySegment result{{}, std::vector<std::size_t>(num_segments + 2, 0)};
+  for (const SegmentId id : segment_of_voxel) ++result.begin[id + 1];
+  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+  std::vector<std::size_t> next = result.begin;
+  result.voxels.resize(segment_of_voxel.size());
+  for (std::size_t voxel = 0; voxel < segment_of_voxel.size(); ++voxel) {
+    result.voxels[next[segment_of_voxel[voxel]]++] = static_cast<std::uint32_t>(voxel);
+  }
+  return result;
+}
+
+// Their centroids, in the cloud's coordinates.
+std::vector<Eigen::Vector3d> PointsOf(const VoxelGrid& grid,
+                                      const VoxelsBySegment& voxels,
+                                      SegmentId id) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(voxels.begin[id + 1] - voxels.begin[id]);
+  for (std::size_t i = voxels.begin[id]; i < voxels.begin[id + 1]; ++i) {
+    points.push_back(grid.origin + grid.centroids[voxels.voxels[i]].cast<double>());
   }
   return points;
 }
@@ -79,23 +97,27 @@ std::vector<Segment> Summarise(const VoxelGrid& grid,
                                const PatchGraph& graph,
                                const Components& components,
                                const std::vector<Plane>& planes,
-                               const std::vector<SegmentId>& segment_of_voxel) {
-  const auto points = CollectPoints(grid, segment_of_voxel, components.components.size());
+                               const std::vector<SegmentId>& segment_of_voxel,
+                               const std::vector<SegmentId>& segment_of_point,
+                               int num_threads) {
+  const VoxelsBySegment voxels = SortBySegment(segment_of_voxel, components.components.size());
   std::vector<Segment> segments(components.components.size());
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    const Component& component = components.components[i];
-    Segment& segment = segments[i];
-    segment.id = static_cast<SegmentId>(i + 1);
-    for (const Eigen::Vector3d& point : points[i]) segment.centroid += point;
-    segment.centroid /= static_cast<double>(std::max<std::size_t>(points[i].size(), 1));
-    segment.box = FitOrientedBox(points[i]);
-    if (component.plane_label != 0) segment.plane = planes[component.plane_label - 1];
-    segment.area = component.area;
-    segment.is_structural = component.is_structural;
-  }
-  for (const std::uint32_t voxel : grid.voxel_of_point) {
-    if (voxel == kNoVoxel || segment_of_voxel[voxel] == 0) continue;
-    ++segments[segment_of_voxel[voxel] - 1].num_points;
+  ParallelFor(segments.size(), 1, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Component& component = components.components[i];
+      Segment& segment = segments[i];
+      segment.id = static_cast<SegmentId>(i + 1);
+      const std::vector<Eigen::Vector3d> points = PointsOf(grid, voxels, segment.id);
+      for (const Eigen::Vector3d& point : points) segment.centroid += point;
+      segment.centroid /= static_cast<double>(std::max<std::size_t>(points.size(), 1));
+      segment.box = FitOrientedBox(points);
+      if (component.plane_label != 0) segment.plane = planes[component.plane_label - 1];
+      segment.area = component.area;
+      segment.is_structural = component.is_structural;
+    }
+  });
+  for (const SegmentId id : segment_of_point) {
+    if (id != 0) ++segments[id - 1].num_points;
   }
   LinkNeighbours(graph, components, segments);
   return segments;

@@ -28,6 +28,8 @@ std::vector<Segment> Summarise(const VoxelGrid& grid,
                                const PatchGraph& graph,
                                const Components& components,
                                const std::vector<Plane>& planes,
-                               const std::vector<SegmentId>& segment_of_voxel);
+                               const std::vector<SegmentId>& segment_of_voxel,
+                               const std::vector<SegmentId>& segment_of_point,
+                               int num_threads);
 
 }  // namespace semslam

@@ -194,14 +194,19 @@ std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
       const std::size_t first = grid.size() * chunk / kNumChunks;
       const std::size_t last = grid.size() * (chunk + 1) / kNumChunks;
       for (auto voxel = static_cast<std::uint32_t>(first); voxel < last; ++voxel) {
+        const std::uint32_t label = labels[voxel];
+        std::uint32_t representative = voxel;
         for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
           if (other >= voxel) break;  // They ascend.
-          if (labels[other] != labels[voxel]) continue;
-          if (other >= first) {
-            sets.Join(voxel, other);
-          } else {
+          if (labels[other] != label) continue;
+          if (sets.IsKnownToBeOf(other, representative)) continue;
+          if (other < first) {
             seams[chunk].emplace_back(voxel, other);
+            continue;
           }
+          const std::uint32_t of_other = sets.Find(other);
+          if (of_other == representative) continue;
+          representative = sets.JoinRepresentatives(representative, of_other);
         }
       }
     }
@@ -209,9 +214,7 @@ std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
   for (const auto& chunk : seams) {
     for (const auto& [voxel, other] : chunk) sets.Join(voxel, other);
   }
-  std::vector<std::uint32_t> pieces(grid.size());
-  for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) pieces[voxel] = sets.Find(voxel);
-  return pieces;
+  return std::move(sets).Representatives();
 }
 
 // Numbers the pieces that are large enough to be a patch, in the order of their first voxels.

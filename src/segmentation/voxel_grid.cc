@@ -6,7 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <utility>
+
+#include <emmintrin.h>
 
 #include "semslam/base/check.h"
 #include "semslam/base/parallel.h"
@@ -19,27 +22,6 @@ namespace {
 constexpr std::size_t kGrain = 16384;
 // Coordinates beyond this many voxels from zero would leave the 21 bits an axis has.
 constexpr double kMaxVoxelsFromZero = (1 << 20) - 8;
-
-using Cell = Eigen::Matrix<std::int32_t, 3, 1>;
-
-// Where the fields of a key begin. One free cell on either side of the cloud keeps the keys of
-// neighbours apart from those of other rows.
-struct KeyLayout {
-  int shift_y = 0;
-  int shift_z = 0;
-  int num_bits = 0;
-
-  std::uint64_t Key(const Cell& cell) const {
-    return static_cast<std::uint64_t>(cell.z()) << shift_z |
-           static_cast<std::uint64_t>(cell.y()) << shift_y | static_cast<std::uint64_t>(cell.x());
-  }
-  Cell CellOf(std::uint64_t key) const {
-    return {
-        static_cast<std::int32_t>(key & ((std::uint64_t{1} << shift_y) - 1)),
-        static_cast<std::int32_t>(key >> shift_y & ((std::uint64_t{1} << (shift_z - shift_y)) - 1)),
-        static_cast<std::int32_t>(key >> shift_z)};
-  }
-};
 
 bool IsUsable(const Eigen::Vector3f& point, double max_coordinate) {
   // False for NaN too.
@@ -79,7 +61,7 @@ class GridPosition {
   double voxels_per_metre_;
 };
 
-KeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
+VoxelKeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
   const Eigen::Vector3d extent = GridPosition(grid)(high);
   std::array<int, 3> bits{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -88,83 +70,158 @@ KeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
   return {bits[0], bits[0] + bits[1], bits[0] + bits[1] + bits[2]};
 }
 
-std::vector<KeyedIndex> SortedKeys(const PointCloudView& cloud,
-                                   const VoxelGrid& grid,
-                                   const KeyLayout& layout,
-                                   std::size_t num_usable,
-                                   int num_threads) {
+// The usable points' items, made of key and index.
+template <typename Item, typename MakeItem>
+std::vector<Item> MakeItems(const PointCloudView& cloud,
+                            const VoxelGrid& grid,
+                            std::size_t num_usable,
+                            int num_threads,
+                            const MakeItem& make_item) {
   const double max_coordinate = kMaxVoxelsFromZero * grid.voxel_size;
   const bool all_usable = num_usable == cloud.points.size();
   const GridPosition position_of(grid);
-  std::vector<KeyedIndex> items(cloud.points.size());
+  std::vector<Item> items(cloud.points.size());
   ParallelFor(items.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& point = cloud.points[i];
-      if (!all_usable && !IsUsable(point, max_coordinate)) continue;
-      const Cell cell = position_of(point).cast<std::int32_t>();
-      items[i] = {layout.Key(cell), static_cast<std::uint32_t>(i)};
+      if (!all_usable && !IsUsable(point, max_coordinate)) {
+        items[i] = make_item(0, 0);  // No usable point has key 0: below them the cells are free.
+        continue;
+      }
+      const Eigen::Vector3i cell = position_of(point).cast<std::int32_t>();
+      items[i] = make_item(grid.layout.Key(cell), static_cast<std::uint32_t>(i));
     }
   });
-  if (!all_usable) {
-    // No usable point has key 0: all cells lie above the free ones.
-    std::erase_if(items, [](const KeyedIndex& item) { return item.key == 0; });
-  }
-  RadixSort(items, layout.num_bits, num_threads);
   return items;
 }
 
-// Mean position and side of the points of one voxel. The sums are of integers, so that their order
-// has no effect.
+// The points voxel by voxel: those of grid.keys[v] are points[begin[v] .. begin[v + 1]).
+struct PointsByVoxel {
+  std::vector<std::uint32_t> points;
+  std::vector<std::uint32_t> begin;
+
+  std::span<const std::uint32_t> Of(std::size_t voxel) const {
+    return std::span(points).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
+  }
+};
+
+// Also finds the grid's keys. `num_unusable` items come first in the order of keys.
+template <typename Item, typename KeyOf, typename IndexOf>
+PointsByVoxel Divide(const std::vector<Item>& items,
+                     std::size_t num_unusable,
+                     const KeyOf& key_of,
+                     const IndexOf& index_of,
+                     VoxelGrid& grid) {
+  PointsByVoxel result;
+  result.points.reserve(items.size() - num_unusable);
+  std::uint64_t last_key = 0;
+  for (std::size_t i = num_unusable; i < items.size(); ++i) {
+    const std::uint64_t key = key_of(items[i]);
+    if (key != last_key) {
+      result.begin.push_back(static_cast<std::uint32_t>(result.points.size()));
+      grid.keys.push_back(key);
+      last_key = key;
+    }
+    result.points.push_back(index_of(items[i]));
+  }
+  result.begin.push_back(static_cast<std::uint32_t>(result.points.size()));
+  return result;
+}
+
+PointsByVoxel SortPoints(const PointCloudView& cloud,
+                         std::size_t num_usable,
+                         int num_threads,
+                         VoxelGrid& grid) {
+  const std::size_t num_unusable = cloud.points.size() - num_usable;
+  const auto index_bits = static_cast<int>(std::bit_width(cloud.points.size()));
+  if (grid.layout.num_bits + index_bits <= 64) {  // All but huge scenes: half the memory to sort.
+    auto items = MakeItems<std::uint64_t>(
+        cloud, grid, num_usable, num_threads,
+        [&](std::uint64_t key, std::uint32_t index) { return key << index_bits | index; });
+    RadixSort(items, index_bits, grid.layout.num_bits, num_threads);
+    const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
+    return Divide(
+        items, num_unusable, [&](std::uint64_t item) { return item >> index_bits; },
+        [&](std::uint64_t item) { return static_cast<std::uint32_t>(item & mask); }, grid);
+  }
+  auto items = MakeItems<KeyedIndex>(cloud, grid, num_usable, num_threads,
+                                     [](std::uint64_t key, std::uint32_t index) {
+                                       return KeyedIndex{key, index};
+                                     });
+  RadixSort(items, grid.layout.num_bits, num_threads);
+  return Divide(
+      items, num_unusable, [](const KeyedIndex& item) { return item.key; },
+      [](const KeyedIndex& item) { return item.index; }, grid);
+}
+
+// Three numbers, and one more that has no meaning.
+struct Sums {
+  __m128d xy = _mm_setzero_pd();
+  __m128d z = _mm_setzero_pd();
+
+  // Adds whole numbers: exactly, so that their order has no effect.
+  void Add(__m128i whole_xy, __m128i whole_z) {
+    xy = _mm_add_pd(xy, _mm_cvtepi32_pd(whole_xy));
+    z = _mm_add_pd(z, _mm_cvtepi32_pd(whole_z));
+  }
+  Eigen::Vector3d ToVector() const {
+    return {_mm_cvtsd_f64(xy), _mm_cvtsd_f64(_mm_unpackhi_pd(xy, xy)), _mm_cvtsd_f64(z)};
+  }
+};
+
+// Mean position and side of the points of one voxel.
 void Accumulate(const PointCloudView& cloud,
                 const GridPosition& position_of,
-                std::span<const KeyedIndex> items,
+                std::span<const std::uint32_t> members,
                 std::size_t voxel,
                 VoxelGrid& grid) {
   constexpr double kPositionScale = 1 << 20;
   constexpr float kNormalScale = 1 << 20;
-  using Sum = Eigen::Matrix<std::int64_t, 3, 1>;
-  const Eigen::Vector3d corner = grid.cells[voxel].cast<double>();
-  Sum position = Sum::Zero();
-  Sum view = Sum::Zero();
-  for (const KeyedIndex& item : items) {
-    const Eigen::Vector3d offset = position_of(cloud.points[item.index]) - corner;
-    position += (offset * kPositionScale).cast<std::int64_t>();
+  const Eigen::Vector3d corner = grid.CellOf(voxel).cast<double>();
+  Sums position;
+  Sums view;
+  for (const std::uint32_t index : members) {
+    const Eigen::Vector3d offset = (position_of(cloud.points[index]) - corner) * kPositionScale;
+    position.Add(_mm_cvttpd_epi32(_mm_setr_pd(offset.x(), offset.y())),
+                 _mm_cvttpd_epi32(_mm_set_sd(offset.z())));
     if (cloud.normals.empty()) continue;
-    const Eigen::Vector3f& normal = cloud.normals[item.index];
+    const Eigen::Vector3f& normal = cloud.normals[index];
     const float norm = normal.norm();
     if (norm > 0 && std::isfinite(norm)) {
-      view += (normal * (kNormalScale / norm)).cast<std::int32_t>().cast<std::int64_t>();
+      const __m128i whole = _mm_cvttps_epi32(_mm_mul_ps(
+          _mm_setr_ps(normal.x(), normal.y(), normal.z(), 0), _mm_set1_ps(kNormalScale / norm)));
+      view.Add(whole, _mm_unpackhi_epi64(whole, whole));
     }
   }
-  const double count = static_cast<double>(items.size());
-  const Eigen::Vector3d mean = corner + position.cast<double>() / (count * kPositionScale);
+  const double count = static_cast<double>(members.size());
+  const Eigen::Vector3d mean = corner + position.ToVector() / (count * kPositionScale);
   grid.centroids[voxel] = ((mean - Eigen::Vector3d::Ones()) * grid.voxel_size).cast<float>();
-  grid.views[voxel] = view.cast<float>() / (kNormalScale * static_cast<float>(count));
+  grid.views[voxel] = view.ToVector().cast<float>() / (kNormalScale * static_cast<float>(count));
+}
+
+// Points of a voxel lie anywhere in the cloud: memory is asked for them ahead of time.
+void Prefetch(const PointCloudView& cloud, std::span<const std::uint32_t> members) {
+  for (const std::uint32_t index : members) {
+    __builtin_prefetch(&cloud.points[index]);
+    if (!cloud.normals.empty()) __builtin_prefetch(&cloud.normals[index]);
+  }
 }
 
 void FillVoxels(const PointCloudView& cloud,
-                const std::vector<KeyedIndex>& items,
-                const KeyLayout& layout,
+                const PointsByVoxel& points,
                 int num_threads,
                 VoxelGrid& grid) {
-  std::vector<std::uint32_t> begin;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0 && items[i].key == items[i - 1].key) continue;
-    begin.push_back(static_cast<std::uint32_t>(i));
-    grid.keys.push_back(items[i].key);
-  }
-  begin.push_back(static_cast<std::uint32_t>(items.size()));
-  grid.cells.resize(grid.size());
-  grid.centroids.resize(grid.size());
-  grid.views.resize(grid.size());
+  grid.centroids.resize(grid.keys.size());
+  grid.views.resize(grid.keys.size());
+  constexpr std::size_t kVoxelsAhead = 4;
   const GridPosition position_of(grid);
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      const auto members = std::span(items).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
-      grid.cells[voxel] = layout.CellOf(grid.keys[voxel]);
+      const auto members = points.Of(voxel);
+      Prefetch(cloud, points.Of(std::min(voxel + kVoxelsAhead, last - 1)));
       Accumulate(cloud, position_of, members, voxel, grid);
-      for (const KeyedIndex& item : members) {
-        grid.voxel_of_point[item.index] = static_cast<std::uint32_t>(voxel);
+      for (const std::uint32_t index : members) {
+        grid.voxel_of_point[index] = static_cast<std::uint32_t>(voxel);
       }
     }
   });
@@ -174,7 +231,9 @@ void FillVoxels(const PointCloudView& cloud,
 // places in the sorted array only ever move up.
 class NeighbourWalk {
  public:
-  NeighbourWalk(const std::vector<std::uint64_t>& keys, const KeyLayout& layout, std::size_t first)
+  NeighbourWalk(const std::vector<std::uint64_t>& keys,
+                const VoxelKeyLayout& layout,
+                std::size_t first)
       : keys_(keys) {
     std::size_t row = 0;
     for (int dz = -1; dz <= 1; ++dz) {
@@ -194,15 +253,22 @@ class NeighbourWalk {
   // order too.
   std::uint32_t Collect(std::size_t voxel, std::vector<std::uint32_t>& neighbours) {
     std::uint32_t bits = 0;
+    std::array<std::uint32_t, 29> found;  // NOLINT: written before it is read.
+    std::size_t num_found = 0;
     for (std::size_t row = 0; row < offsets_.size(); ++row) {
       const std::uint64_t low = keys_[voxel] + offsets_[row];
-      std::size_t& place = places_[row];
-      while (place < keys_.size() && keys_[place] < low) ++place;
-      for (std::size_t i = place; i < keys_.size() && keys_[i] <= low + 2; ++i) {
-        bits |= std::uint32_t{1} << (3 * row + (keys_[i] - low));
-        if (i != voxel) neighbours.push_back(static_cast<std::uint32_t>(i));
+      std::size_t place = places_[row];
+      while (keys_[place] < low) ++place;
+      places_[row] = place;
+      for (std::size_t i = 0; i < 3; ++i) {  // Without branches: nobody could predict them.
+        const std::uint64_t step = keys_[place + i] - low;
+        const std::uint32_t is_near = step <= 2 ? 1 : 0;
+        bits |= is_near << (3 * row + (step & 3));
+        found[num_found] = static_cast<std::uint32_t>(place + i);
+        num_found += is_near & (place + i != voxel ? 1U : 0U);
       }
     }
+    neighbours.insert(neighbours.end(), found.begin(), found.begin() + num_found);
     return bits;
   }
 
@@ -212,36 +278,29 @@ class NeighbourWalk {
   std::array<std::size_t, 9> places_{};
 };
 
-void FindNeighbours(const KeyLayout& layout, int num_threads, VoxelGrid& grid) {
-  const std::size_t num_chunks = (grid.size() + kGrain - 1) / kGrain;
-  std::vector<std::vector<std::uint32_t>> found(num_chunks);
+void FindNeighbours(int num_threads, VoxelGrid& grid) {
+  constexpr std::size_t kSize = VoxelNeighbours::kChunkSize;
+  constexpr std::size_t kUsualNeighbours = 16;
+  std::vector<VoxelNeighbours::Chunk> chunks((grid.size() + kSize - 1) / kSize);
   grid.neighbour_bits.resize(grid.size());
-  const auto last_of = [&](std::size_t chunk) {
-    return std::min((chunk + 1) * kGrain, grid.size());
-  };
-  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      constexpr std::size_t kUsualNeighbours = 12;
-      found[chunk].reserve(kUsualNeighbours * kGrain);
-      NeighbourWalk walk(grid.keys, layout, chunk * kGrain);
-      for (std::size_t voxel = chunk * kGrain; voxel < last_of(chunk); ++voxel) {
-        grid.neighbour_bits[voxel] = walk.Collect(voxel, found[chunk]);
+  // So that three keys may be looked at from any place on. None is near a voxel.
+  grid.keys.insert(grid.keys.end(), 3, std::numeric_limits<std::uint64_t>::max());
+  ParallelFor(chunks.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      VoxelNeighbours::Chunk& chunk = chunks[i];
+      const std::size_t first = i * kSize;
+      const std::size_t last = std::min(first + kSize, grid.size());
+      chunk.begin.reserve(last - first + 1);
+      chunk.indices.reserve(kUsualNeighbours * (last - first));
+      NeighbourWalk walk(grid.keys, grid.layout, first);
+      for (std::size_t voxel = first; voxel < last; ++voxel) {
+        grid.neighbour_bits[voxel] = walk.Collect(voxel, chunk.indices);
+        chunk.begin.push_back(static_cast<std::uint32_t>(chunk.indices.size()));
       }
     }
   });
-  grid.neighbour_begin.assign(grid.size() + 1, 0);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const auto count = static_cast<std::uint32_t>(std::popcount(grid.neighbour_bits[i])) - 1;
-    grid.neighbour_begin[i + 1] = grid.neighbour_begin[i] + count;
-  }
-  grid.neighbours.resize(grid.neighbour_begin.back());
-  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      std::copy(found[chunk].begin(), found[chunk].end(),
-                grid.neighbours.begin() + grid.neighbour_begin[chunk * kGrain]);
-      found[chunk] = {};
-    }
-  });
+  grid.keys.resize(grid.size());
+  grid.neighbours = VoxelNeighbours(std::move(chunks));
 }
 
 }  // namespace
@@ -254,16 +313,13 @@ VoxelGrid BuildVoxelGrid(const PointCloudView& cloud, double voxel_size, int num
   VoxelGrid grid;
   grid.voxel_size = voxel_size;
   grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
-  grid.neighbour_begin.assign(1, 0);
   const Bounds bounds = FindBounds(cloud.points, kMaxVoxelsFromZero * voxel_size);
   if (bounds.num_points == 0) return grid;
 
   grid.origin = bounds.low.cast<double>();
-  const KeyLayout layout = MakeLayout(grid, bounds.high);
-  const std::vector<KeyedIndex> items =
-      SortedKeys(cloud, grid, layout, bounds.num_points, num_threads);
-  FillVoxels(cloud, items, layout, num_threads, grid);
-  FindNeighbours(layout, num_threads, grid);
+  grid.layout = MakeLayout(grid, bounds.high);
+  FillVoxels(cloud, SortPoints(cloud, bounds.num_points, num_threads, grid), num_threads, grid);
+  FindNeighbours(num_threads, grid);
   return grid;
 }
 

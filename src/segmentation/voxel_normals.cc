@@ -10,6 +10,7 @@
 #include <memory>
 
 #include <Eigen/Geometry>
+#include <emmintrin.h>
 
 #include "semslam/base/parallel.h"
 
@@ -18,55 +19,89 @@ namespace {
 
 constexpr std::size_t kGrain = 8192;
 
-// Moments in voxel units. Doubles, so that all can be taken about the same origin and simply added.
-class Moments {
- public:
-  // Of one point.
-  static Moments Of(const Eigen::Vector3d& p) {
-    Moments moments;
-    for (Eigen::Array2d& lane : moments.lanes_) lane.setZero();
-    moments.Add(p);
-    return moments;
+// Moments of points about a place, in voxels: four lanes at a time (SSE2). The last lane counts the
+// points in `sum` and means nothing in the others.
+struct Moments {
+  __m128 sum;       // x, y, z, count.
+  __m128 squares;   // xx, yy, zz.
+  __m128 products;  // yz, zx, xy.
+
+  // Of one point in the place itself.
+  static Moments OfPlace() { return {_mm_setr_ps(0, 0, 0, 1), _mm_setzero_ps(), _mm_setzero_ps()}; }
+
+  // Adds a point that lies off the place by `offset`, whose last lane is zero.
+  void Add(__m128 offset) {
+    sum = _mm_add_ps(sum, _mm_add_ps(offset, _mm_setr_ps(0, 0, 0, 1)));
+    squares = _mm_add_ps(squares, _mm_mul_ps(offset, offset));
+    products = _mm_add_ps(products, _mm_mul_ps(Yzx(offset), Zxy(offset)));
   }
 
-  void Add(const Eigen::Vector3d& p) {
-    lanes_[0] += Eigen::Array2d(1, p.x());
-    lanes_[1] += Eigen::Array2d(p.y(), p.z());
-    lanes_[2] += Eigen::Array2d(p.x() * p.x(), p.x() * p.y());
-    lanes_[3] += Eigen::Array2d(p.x() * p.z(), p.y() * p.y());
-    lanes_[4] += Eigen::Array2d(p.y() * p.z(), p.z() * p.z());
+  // Adds the moments of other points about a place that lies off by `offset`.
+  void Add(const Moments& other, __m128 offset) {
+    const __m128 count = _mm_shuffle_ps(other.sum, other.sum, _MM_SHUFFLE(3, 3, 3, 3));
+    const __m128 shift = _mm_mul_ps(count, offset);
+    const __m128 sum_here = _mm_add_ps(other.sum, shift);
+    sum = _mm_add_ps(sum, sum_here);
+    // (p + o)(p + o)' summed is pp' + p o' + o (p + o)'.
+    squares = _mm_add_ps(
+        squares, _mm_add_ps(other.squares, _mm_mul_ps(offset, _mm_add_ps(other.sum, sum_here))));
+    products = _mm_add_ps(
+        products, _mm_add_ps(other.products, _mm_add_ps(_mm_mul_ps(Yzx(other.sum), Zxy(offset)),
+                                                        _mm_mul_ps(Yzx(offset), Zxy(sum_here)))));
   }
 
-  Moments& operator+=(const Moments& other) {
-    for (std::size_t i = 0; i < lanes_.size(); ++i) lanes_[i] += other.lanes_[i];
-    return *this;
-  }
-
-  double weight() const { return lanes_[0][0]; }
+  float count() const { return _mm_cvtss_f32(_mm_shuffle_ps(sum, sum, _MM_SHUFFLE(3, 3, 3, 3))); }
 
   Eigen::Matrix3f Covariance() const {
-    const double scale = 1 / weight();
-    const Eigen::Vector3d mean = scale * Eigen::Vector3d(lanes_[0][1], lanes_[1][0], lanes_[1][1]);
-    Eigen::Matrix3d outer;
-    outer << lanes_[2][0], lanes_[2][1], lanes_[3][0],  //
-        lanes_[2][1], lanes_[3][1], lanes_[4][0],       //
-        lanes_[3][0], lanes_[4][0], lanes_[4][1];
-    return (scale * outer - mean * mean.transpose()).cast<float>();
+    const __m128 scale = _mm_set1_ps(1 / count());
+    const __m128 mean = _mm_mul_ps(scale, sum);
+    alignas(16) std::array<float, 4> d{};
+    alignas(16) std::array<float, 4> p{};
+    _mm_store_ps(d.data(), _mm_sub_ps(_mm_mul_ps(scale, squares), _mm_mul_ps(mean, mean)));
+    _mm_store_ps(p.data(),
+                 _mm_sub_ps(_mm_mul_ps(scale, products), _mm_mul_ps(Yzx(mean), Zxy(mean))));
+    Eigen::Matrix3f covariance;
+    covariance << d[0], p[2], p[1],  //
+        p[2], d[1], p[0],            //
+        p[1], p[0], d[2];
+    return covariance;
   }
 
  private:
-  // 1 x | y z | xx xy | xz yy | yz zz.
-  std::array<Eigen::Array2d, 5> lanes_;
+  static __m128 Yzx(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 0, 2, 1)); }
+  static __m128 Zxy(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 1, 0, 2)); }
 };
 
+// Centroids of voxels, in voxels.
+class Places {
+ public:
+  explicit Places(const VoxelGrid& grid)
+      : centroids_(grid.centroids), scale_(_mm_set1_ps(static_cast<float>(1 / grid.voxel_size))) {}
+
+  // From the one to the other; the last lane is zero.
+  __m128 Offset(std::size_t from, std::size_t to) const {
+    return _mm_mul_ps(scale_, _mm_sub_ps(Load(centroids_[to]), Load(centroids_[from])));
+  }
+
+ private:
+  static __m128 Load(const Eigen::Vector3f& p) {
+    const __m128 xy = _mm_unpacklo_ps(_mm_load_ss(p.data()), _mm_load_ss(p.data() + 1));
+    return _mm_movelh_ps(xy, _mm_load_ss(p.data() + 2));
+  }
+
+  const std::vector<Eigen::Vector3f>& centroids_;
+  __m128 scale_;
+};
+
+// Of each voxel's centroid and those of its neighbours, about its own.
 std::unique_ptr<Moments[]> RingMoments(const VoxelGrid& grid, int num_threads) {
   auto moments = std::make_unique_for_overwrite<Moments[]>(grid.size());
-  const double scale = 1.0 / grid.voxel_size;
+  const Places places(grid);
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      Moments own = Moments::Of(scale * grid.centroids[voxel].cast<double>());
+      Moments own = Moments::OfPlace();
       for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
-        own.Add(scale * grid.centroids[other].cast<double>());
+        own.Add(places.Offset(voxel, other));
       }
       moments[voxel] = own;
     }
@@ -92,7 +127,7 @@ float LeastEigenvalue(float trace, float minors, float determinant) {
 
 // Zero if the points lie on a line.
 Eigen::Vector3f LeastDirection(const Moments& moments) {
-  if (moments.weight() < 3) return Eigen::Vector3f::Zero();
+  if (moments.count() < 3) return Eigen::Vector3f::Zero();
   constexpr float kMinSpread = 1e-3F;
   Eigen::Matrix3f c = moments.Covariance();
   const float trace = c.trace();
@@ -148,11 +183,14 @@ void OrientTheRest(const VoxelGrid& grid, std::vector<Eigen::Vector3f>& normals)
 
 std::vector<Eigen::Vector3f> ComputeVoxelNormals(const VoxelGrid& grid, int num_threads) {
   const std::unique_ptr<Moments[]> rings = RingMoments(grid, num_threads);
-  std::vector<Eigen::Vector3f> normals(grid.size(), Eigen::Vector3f::Zero());
+  const Places places(grid);
+  std::vector<Eigen::Vector3f> normals(grid.size());
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
       Moments moments = rings[voxel];
-      for (const std::uint32_t other : grid.NeighboursOf(voxel)) moments += rings[other];
+      for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
+        moments.Add(rings[other], places.Offset(voxel, other));
+      }
       normals[voxel] = LeastDirection(moments);
       if (normals[voxel].dot(grid.views[voxel]) < 0) normals[voxel] = -normals[voxel];
     }

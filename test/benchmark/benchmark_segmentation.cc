@@ -3,9 +3,9 @@
 
 // The paper's table 1 on this machine: time and memory of this project's segmentation, and of PCL's
 // LCCP and region growing, on clouds of several sizes. The clouds are made: the true surface of a
-// rendered room, roughened like a map, cut to size about its middle, and repeated where it is too
-// small. Each measurement runs in a process of its own, so that its peak memory is its own.
-//   benchmark_segmentation [millions of points ...]
+// rendered room or desk, roughened like a map, cut to size about its middle, and repeated where it
+// is too small. Each measurement runs in a process of its own, so that its peak memory is its own.
+//   benchmark_segmentation [room | desk] [millions of points ...]
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -45,13 +45,16 @@ struct Measurement {
   double num_segments = 0;
 };
 
-Cloud MakeRoom() {
+Cloud MakeScene(const std::string& name) {
+  constexpr double kRoomSpacing = 0.005;  // Metres; a desk is smaller.
+  constexpr double kDeskSpacing = 0.002;
   constexpr float kNoise = 0.0015F;  // Metres.
   semslam::RenderedClip::Options options;
-  options.scene = "room";
+  options.scene = name;
   options.num_frames = 60;
   options.fps = 4;
-  const semslam::TrueSurface surface = semslam::SampleTrueSurface(semslam::RenderedClip(options));
+  const semslam::TrueSurface surface = semslam::SampleTrueSurface(
+      semslam::RenderedClip(options), name == "desk" ? kDeskSpacing : kRoomSpacing);
   semslam::Random random(1);
   Cloud cloud;
   cloud.normals = surface.normals;
@@ -62,14 +65,14 @@ Cloud MakeRoom() {
   return cloud;
 }
 
-// The room, made in a process that ends with it: threads of a pool do not live on in children, and
+// The scene, made in a process that ends with it: threads of a pool do not live on in children, and
 // the parent, which the measurements are children of, must have none.
-Cloud MakeRoomAside() {
+Cloud MakeSceneAside(const std::string& name) {
   std::FILE* const file = std::tmpfile();
   if (file == nullptr) return {};
   const pid_t child = ::fork();
   if (child == 0) {
-    const Cloud room = MakeRoom();
+    const Cloud room = MakeScene(name);
     std::fwrite(room.points.data(), sizeof(Eigen::Vector3f), room.points.size(), file);
     std::fwrite(room.normals.data(), sizeof(Eigen::Vector3f), room.normals.size(), file);
     std::fflush(file);
@@ -194,22 +197,29 @@ void Compare(const Cloud& cloud) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<double> millions(static_cast<std::size_t>(argc) - 1);
-  for (int i = 1; i < argc; ++i) millions[static_cast<std::size_t>(i) - 1] = std::atof(argv[i]);
-  if (millions.empty()) millions = {0.1, 0.3, 0.952563, 3};
-  const Cloud room = MakeRoomAside();
-  if (room.points.empty()) {
-    std::cerr << "benchmark_segmentation: the room could not be made\n";
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::string scene = "room";
+  if (!arguments.empty() && (arguments[0] == "room" || arguments[0] == "desk")) {
+    scene = arguments[0];
+    arguments.erase(arguments.begin());
+  }
+  if (arguments.empty()) arguments = {"0.1", "0.3", "0.952563", "3"};
+  const Cloud whole = MakeSceneAside(scene);
+  if (whole.points.empty()) {
+    std::cerr << "benchmark_segmentation: the scene could not be made\n";
     return EXIT_FAILURE;
   }
-  std::printf("a room of %zu points\n%9s  %-15s %9s %9s %9s %12s %9s %11s\n", room.points.size(),
-              "points", "method", "ms", "cpu ms", "us/point", "bytes/point", "segments", "to ours");
-  for (const double size : millions) {
-    if (!(size > 0)) {
-      std::cerr << "benchmark_segmentation: expected millions of points, each > 0\n";
+  std::printf("a %s of %zu points\n%9s  %-15s %9s %9s %9s %12s %9s %11s\n", scene.c_str(),
+              whole.points.size(), "points", "method", "ms", "cpu ms", "us/point", "bytes/point",
+              "segments", "to ours");
+  for (const std::string& argument : arguments) {
+    const double millions = std::atof(argument.c_str());
+    if (!(millions > 0)) {
+      std::cerr << "benchmark_segmentation: expected room or desk, then millions of points, found "
+                << argument << '\n';
       return EXIT_FAILURE;
     }
-    Compare(CutToSize(room, static_cast<std::size_t>(1e6 * size)));
+    Compare(CutToSize(whole, static_cast<std::size_t>(1e6 * millions)));
   }
   return EXIT_SUCCESS;
 }

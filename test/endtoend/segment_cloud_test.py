@@ -1,12 +1,16 @@
 # SPDX-FileCopyrightText: 2026 the semslam authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The segmentation alone, on a cloud of rgbd_tum."""
+import array
 import json
+import os
+import signal
 import unittest
 
 import formats
 import harness
 from harness import CLIP, EndToEndTest, run
+from terminal import Terminal
 
 
 class SegmentCloudTest(EndToEndTest):
@@ -45,6 +49,37 @@ class SegmentCloudTest(EndToEndTest):
             self.assertEqual(result.returncode, 1)
             self.assertIn(str(path), result.stderr)
             self.assertFalse((self.folder / "out.pcd").exists())
+
+    def test_interrupted_it_writes_nothing_and_keeps_what_was_there(self):
+        cloud = self.folder / "large.pcd"
+        write_floors(cloud)
+        out = self.folder / "out.pcd"
+        planes = self.folder / "planes.json"
+        out.write_text("of an earlier run")
+        for step in ["reading", "voxels", "normals"]:
+            terminal = Terminal([harness.BIN / "segment_cloud", cloud, out, "--planes", planes],
+                                dict(os.environ))
+            self.addCleanup(terminal.close)
+            with self.subTest(step):
+                terminal.wait_for(step)
+                terminal.process.send_signal(signal.SIGINT)
+                terminal.finish()
+                self.assertEqual(terminal.process.returncode, 130, terminal.text)
+                self.assertIn("segment_cloud: interrupted, nothing was written", terminal.text)
+                self.assertEqual(out.read_text(), "of an earlier run")
+                self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                                 ["large.pcd", "out.pcd"])
+
+
+def write_floors(path):
+    """Ten floors of 250 x 250 points, so many that segmenting them takes a while."""
+    points = array.array("f", (c for z in range(10) for x in range(250) for y in range(250)
+                               for c in (0.007 * x, 0.007 * y, 0.5 * z)))
+    count = len(points) // 3
+    header = ["VERSION 0.7", "FIELDS x y z", "SIZE 4 4 4", "TYPE F F F", "COUNT 1 1 1",
+              f"WIDTH {count}", "HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", f"POINTS {count}",
+              "DATA binary", ""]
+    path.write_bytes("\n".join(header).encode() + points.tobytes())
 
 
 if __name__ == "__main__":

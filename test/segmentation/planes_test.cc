@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "semslam/base/random.h"
+
 #include "segmentation/patches.h"
 #include "segmentation/plane_hypotheses.h"
 #include "segmentation/plane_scores.h"
@@ -60,9 +62,34 @@ TEST(PlaneScores, SupportIsSummedAsPublished) {
   const std::vector<Plane> planes = {{Eigen::Vector3d::UnitZ(), 0}};
   const PlaneHypothesisOptions options;
   const double expected = 0.5 + 0.25 * std::exp(-1.0);
-  EXPECT_NEAR(SoftSupports(patches, planes, options, 1)[0], expected, 1e-12);
+  EXPECT_NEAR(SoftSupports(patches, planes, options, 1)[0], expected, 1e-6);
   const SelectionEnergy energy = MakeSelectionEnergy(patches, planes, options);
   EXPECT_NEAR(energy.unary[0], -expected / 0.1, 1e-9);
+}
+
+TEST(PlaneScores, SupportsOfManyPatchesAreTheirWeightedAreasSummed) {
+  Random random(5);
+  const auto any = [&](double reach) {
+    return Eigen::Vector3d(reach * random.Uniform(), reach * random.Uniform(),
+                           reach * random.Uniform());
+  };
+  std::vector<Patch> patches;
+  for (int i = 0; i < 1001; ++i) {
+    const Eigen::Vector3d normal = any(1) - Eigen::Vector3d::Constant(0.5);
+    patches.push_back(MakePatch(any(3), normal, 0.01 * random.Uniform()));
+  }
+  const PlaneHypothesisOptions options;
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector3d normal = (any(1) - Eigen::Vector3d::Constant(0.5)).normalized();
+    const std::vector<Plane> planes = {{normal, -normal.dot(any(3))}};
+    double expected = 0;
+    for (const Patch& patch : patches) {
+      const double cost = PatchCost(patch, planes[0], options.min_normal_cosine);
+      expected += patch.area * std::exp(-cost / (2 * options.tolerance));
+    }
+    // Weights below exp(-10) are left out.
+    EXPECT_NEAR(SoftSupports(patches, planes, options, 1)[0], expected, 1e-3 * expected + 1e-4);
+  }
 }
 
 TEST(PlaneScores, ParallelAndSquarePlanesAgreeOthersDisagree) {

@@ -147,5 +147,45 @@ TEST(PatchGraph, EdgesJoinThePatchesOfAdjacentVoxels) {
   }
 }
 
+// A quarter of the patches lose voxels to a neighbour or to a new patch.
+TEST(PatchGraph, UpdatedForSomePatchesIsThatBuiltAnew) {
+  const test::SyntheticScene scene = test::MakeDesk();
+  const Grown grown = Grow(scene.View());
+  const PatchGraph before = BuildPatchGraph(grown.grid, grown.normals, grown.supervoxels, 1);
+  Supervoxels cut = grown.supervoxels;
+  for (const PatchEdge& edge : before.edges) {
+    if (edge.a % 8 != 0) continue;
+    const bool is_new = edge.a % 16 == 0;
+    const std::uint32_t to = is_new ? cut.num_patches++ : edge.b;
+    std::size_t i = 0;
+    for (std::uint32_t& patch : cut.patch_of_voxel) {
+      if (patch == edge.a && ++i % 3 == 0) patch = to;
+    }
+  }
+  std::vector<std::uint32_t> old_number(cut.num_patches, kNoPatch);
+  for (std::uint32_t i = 0; i < grown.supervoxels.num_patches; ++i) old_number[i] = i;
+  for (std::size_t voxel = 0; voxel < cut.patch_of_voxel.size(); ++voxel) {
+    const std::uint32_t from = grown.supervoxels.patch_of_voxel[voxel];
+    const std::uint32_t to = cut.patch_of_voxel[voxel];
+    if (from != to) old_number[from] = old_number[to] = kNoPatch;
+  }
+  const PatchGraph expected = BuildPatchGraph(grown.grid, grown.normals, cut, 1);
+  const PatchGraph updated =
+      UpdatePatchGraph(grown.grid, grown.normals, cut, before, old_number, 2);
+  ASSERT_EQ(updated.patches.size(), expected.patches.size());
+  for (std::size_t i = 0; i < expected.patches.size(); ++i) {
+    ASSERT_EQ(updated.patches[i].centroid, expected.patches[i].centroid);
+    ASSERT_EQ(updated.patches[i].normal, expected.patches[i].normal);
+    ASSERT_EQ(updated.patches[i].area, expected.patches[i].area);
+    ASSERT_EQ(updated.patches[i].variation, expected.patches[i].variation);
+  }
+  ASSERT_EQ(updated.edges.size(), expected.edges.size());
+  for (std::size_t i = 0; i < expected.edges.size(); ++i) {
+    ASSERT_EQ(updated.edges[i].a, expected.edges[i].a);
+    ASSERT_EQ(updated.edges[i].b, expected.edges[i].b);
+    ASSERT_EQ(updated.edges[i].num_contacts, expected.edges[i].num_contacts);
+  }
+}
+
 }  // namespace
 }  // namespace semslam

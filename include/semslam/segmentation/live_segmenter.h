@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,7 +51,9 @@ class LiveSegmenter {
   // Voxels that appeared but are known, or vanished but are not, are no change.
   void Update(const Changes& changes);
 
-  // What lies around the block that has changed most; empty if nothing much has changed.
+  // What lies around the block that has changed most, and around others while there is room; empty
+  // if nothing much has changed. After a large update it is smaller, so that both together cost no
+  // more than after a small one.
   Region NextRegion() const;
   // The whole map: for when all of it has moved.
   Region WholeMap() const;
@@ -69,12 +72,24 @@ class LiveSegmenter {
   struct Block {
     std::vector<std::pair<std::uint64_t, SegmentId>> voxels;  // Ascending by key.
     std::size_t num_changed = 0;                              // Since it was segmented.
+    std::size_t rank = 0;  // Its change in `changed_`; 0: not in it.
+  };
+  // By change, the most first; then by key.
+  struct ChangedMore {
+    bool operator()(const std::pair<std::size_t, std::uint64_t>& a,
+                    const std::pair<std::size_t, std::uint64_t>& b) const {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    }
   };
   class Matching;
   class BlockFinder;
 
   std::uint64_t BlockOf(std::uint64_t voxel) const;
+  std::vector<std::uint64_t> SortedByBlock(const std::vector<std::uint64_t>& voxels) const;
+  void RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block);
+  void AddVoxels(std::span<const std::uint64_t> appeared, Block& block);
   std::size_t ChangeOf(const Block& block) const;  // 0: not worth a step.
+  void Rank(std::uint64_t key, Block& block);      // After its change has changed.
   Region Collect(std::vector<std::uint64_t> blocks) const;
   bool IsInside(std::uint64_t block, const Region& region) const;
   SegmentId Resolve(SegmentId id) const;
@@ -84,7 +99,10 @@ class LiveSegmenter {
   Options options_;
   int block_bits_ = 0;
   std::map<std::uint64_t, Block> blocks_;
+  // Those worth a step.
+  std::set<std::pair<std::size_t, std::uint64_t>, ChangedMore> changed_;
   std::size_t num_voxels_ = 0;
+  std::size_t num_updated_ = 0;  // Voxels that the last update told of.
   // By id, first that of no segment: the id it was joined to, or itself; and its voxels.
   std::vector<SegmentId> joined_to_ = {0};
   std::vector<std::size_t> num_voxels_of_ = {0};

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 the semslam authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "semslam/segmentation/live_segmenter.h"
+
+#include "segmentation/live_keys.h"
+#include "segmentation/radix_sort.h"
+
+namespace semslam {
+
+// Remembers the block of the last voxel: that of the next one is mostly the same.
+class LiveSegmenter::BlockFinder {
+ public:
+  explicit BlockFinder(LiveSegmenter& live) : live_(&live) {}
+
+  // Null if there is none.
+  Block* Find(std::uint64_t voxel) {
+    const std::uint64_t key = live_->BlockOf(voxel);
+    if (block_ != nullptr && key == key_) return block_;
+    const auto found = live_->blocks_.find(key);
+    key_ = key;
+    block_ = found == live_->blocks_.end() ? nullptr : &found->second;
+    return block_;
+  }
+  // Null if it is not known.
+  std::pair<std::uint64_t, SegmentId>* FindVoxel(std::uint64_t voxel) {
+    Block* block = Find(voxel);
+    if (block == nullptr) return nullptr;
+    const auto place = Place(block->voxels, voxel);
+    return place == block->voxels.end() || place->first != voxel ? nullptr : &*place;
+  }
+
+ private:
+  LiveSegmenter* live_;
+  std::uint64_t key_ = 0;
+  Block* block_ = nullptr;
+};
+
+void LiveSegmenter::Update(const Changes& changes) {
+  BlockFinder finder(*this);
+  std::vector<std::pair<std::uint64_t, SegmentId>> carried;
+  for (const auto& [from, to] : changes.moved) {
+    const auto* voxel = finder.FindVoxel(from);
+    if (voxel != nullptr && voxel->second != 0) carried.emplace_back(to, voxel->second);
+  }
+  const std::vector<std::uint64_t> vanished = SortedByBlock(changes.vanished);
+  const std::vector<std::uint64_t> appeared = SortedByBlock(changes.appeared);
+  const auto end_of_block = [&](const auto& keys, std::size_t i, std::uint64_t block) {
+    while (i < keys.size() && BlockOf(keys[i]) == block) ++i;
+    return i;
+  };
+  num_updated_ = vanished.size() + appeared.size();
+  std::size_t v = 0;
+  std::size_t a = 0;
+  while (v < vanished.size() || a < appeared.size()) {
+    std::uint64_t block = std::numeric_limits<std::uint64_t>::max();
+    if (v < vanished.size()) block = std::min(block, BlockOf(vanished[v]));
+    if (a < appeared.size()) block = std::min(block, BlockOf(appeared[a]));
+    const std::size_t v_end = end_of_block(vanished, v, block);
+    const std::size_t a_end = end_of_block(appeared, a, block);
+    const auto place = blocks_.try_emplace(block).first;
+    RemoveVoxels(std::span(vanished).subspan(v, v_end - v), place->second);
+    AddVoxels(std::span(appeared).subspan(a, a_end - a), place->second);
+    Rank(block, place->second);
+    if (place->second.voxels.empty()) {
+      changed_.erase({place->second.rank, block});
+      blocks_.erase(place);
+    }
+    v = v_end;
+    a = a_end;
+  }
+  finder = BlockFinder(*this);  // Blocks have come and gone.
+  for (const auto& [key, id] : carried) {
+    auto* voxel = finder.FindVoxel(key);
+    if (voxel != nullptr && voxel->second == 0) SetId(*voxel, id);
+  }
+}
+
+// Each once, so that those of a block follow each other, by key.
+std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(
+    const std::vector<std::uint64_t>& voxels) const {
+  const std::uint64_t inner = static_cast<std::uint64_t>(options_.block_size) - 1;
+  std::vector<KeyedIndex> order;
+  order.reserve(voxels.size());
+  for (const std::uint64_t key : voxels) {
+    // The bits within the block, below those of the block.
+    const auto cell = CellOf(key);
+    std::uint64_t place = 0;
+    for (const std::int64_t c : cell) {
+      place =
+          place << (kVoxelAxisBits - block_bits_) | static_cast<std::uint64_t>(c) >> block_bits_;
+    }
+    for (const std::int64_t c : cell) {
+      place = place << block_bits_ | (static_cast<std::uint64_t>(c) & inner);
+    }
+    order.push_back({place, static_cast<std::uint32_t>(order.size())});
+  }
+  RadixSort(order, 3 * kVoxelAxisBits, 1);
+  std::vector<std::uint64_t> sorted;
+  sorted.reserve(voxels.size());
+  for (const KeyedIndex& item : order) {
+    if (sorted.empty() || sorted.back() != voxels[item.index]) sorted.push_back(voxels[item.index]);
+  }
+  return sorted;
+}
+
+void LiveSegmenter::RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block) {
+  if (vanished.empty()) return;
+  const std::size_t size_before = block.voxels.size();
+  auto next = vanished.begin();
+  std::erase_if(block.voxels, [&](const std::pair<std::uint64_t, SegmentId>& voxel) {
+    while (next != vanished.end() && *next < voxel.first) ++next;
+    if (next == vanished.end() || *next != voxel.first) return false;
+    const SegmentId id = Resolve(voxel.second);
+    if (id != 0) --num_voxels_of_[id];
+    return true;
+  });
+  const std::size_t num_removed = size_before - block.voxels.size();
+  num_voxels_ -= num_removed;
+  block.num_changed += num_removed;
+}
+
+void LiveSegmenter::AddVoxels(std::span<const std::uint64_t> appeared, Block& block) {
+  if (appeared.empty()) return;
+  std::vector<std::pair<std::uint64_t, SegmentId>> merged;
+  merged.reserve(block.voxels.size() + appeared.size());
+  auto old = block.voxels.cbegin();
+  for (const std::uint64_t key : appeared) {
+    while (old != block.voxels.cend() && old->first < key) merged.push_back(*old++);
+    if (old == block.voxels.cend() || old->first != key) merged.emplace_back(key, 0);
+  }
+  merged.insert(merged.end(), old, block.voxels.cend());
+  const std::size_t num_added = merged.size() - block.voxels.size();
+  block.voxels = std::move(merged);
+  num_voxels_ += num_added;
+  block.num_changed += num_added;
+}
+
+}  // namespace semslam
