@@ -139,9 +139,9 @@ void WriteFrame(const RenderedClip& clip,
                 const DetectionOptions& options) {
   const RenderedFrame frame = clip.Frame(index, 1);
   const std::string stamp = FormatTime(frame.time);
-  // A noisy picture has no runs to look for.
+  // Noise has no runs to look for.
   WritePng(folder / "rgb" / (stamp + ".png"), frame.color, PngContent::kPhoto);
-  WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u, PngContent::kFlat);
+  WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u, PngContent::kPhoto);
   WritePng(folder / "labels" / (stamp + ".png"), frame.ideal.labels, PngContent::kFlat);
   std::vector<TrueDetection> detections;
   if (!clip.IsCovered(index)) {

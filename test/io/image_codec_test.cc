@@ -62,6 +62,55 @@ TEST_P(EveryPngType, OfAPartOfAnImageHoldsThatPart) {
 
 INSTANTIATE_TEST_SUITE_P(PngTypes, EveryPngType, ::testing::Values(CV_8UC1, CV_8UC3, CV_16UC1));
 
+void ExpectReadAsWritten(const cv::Mat& image) {
+  for (const PngContent content : {PngContent::kPhoto, PngContent::kFlat}) {
+    const std::string bytes = EncodePng(image, content);
+    const cv::Mat read = ReadByOpenCv(bytes, cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(LargestDifference(read, image), 0);
+    cv::Mat color;
+    cv::cvtColor(image, color, cv::COLOR_GRAY2BGR);
+    EXPECT_EQ(LargestDifference(PngReader("a", bytes).Decode(PngPixels::kBgr8), color), 0);
+  }
+}
+
+TEST(PngWriter, WritesRunsOfEveryLength) {
+  cv::Mat image(600, 601, CV_8UC1, cv::Scalar(90));  // A run starts where a row is flat.
+  for (int row = 0; row < image.rows; ++row) image.at<std::uint8_t>(row, row + 1) = 7;
+  ExpectReadAsWritten(image);
+}
+
+TEST(PngWriter, WritesPicturesOfManyBlocks) {
+  cv::Mat image(700, 900, CV_8UC1);
+  cv::RNG random(3);
+  random.fill(image, cv::RNG::NORMAL, 128, 20);
+  image.rowRange(200, 400).setTo(0);
+  ExpectReadAsWritten(image);
+}
+
+TEST(PngWriter, WritesLevelsOfWhichSomeAreVeryRare) {
+  // Differences 1 to 20 occur as often as Fibonacci's numbers say: codes without a limit would have
+  // more than the 15 bits that fit.
+  std::vector<std::uint8_t> levels = {0};
+  std::vector<int> counts = {1, 1};
+  while (counts.size() < 20) counts.push_back(counts[counts.size() - 1] + counts.rbegin()[1]);
+  for (std::size_t step = 0; step < counts.size(); ++step) {
+    for (int i = 0; i < counts[step]; ++i)
+      levels.push_back(static_cast<std::uint8_t>(levels.back() + step + 1));
+  }
+  ExpectReadAsWritten(cv::Mat(1, static_cast<int>(levels.size()), CV_8UC1, levels.data()));
+}
+
+TEST(PngWriter, MakesNoiseAndFlatPicturesSmall) {
+  cv::Mat noise(480, 640, CV_8UC1);
+  cv::RNG random(3);
+  random.fill(noise, cv::RNG::NORMAL, 128, 2);
+  // Differences have a deviation of 2 sqrt(2): log2(2 sqrt(2) sqrt(2 pi e)) = 3.55 bits.
+  EXPECT_LT(static_cast<double>(EncodePng(noise, PngContent::kPhoto).size()),
+            1.02 * 3.55 / 8 * 480 * 640);
+  const cv::Mat flat(480, 640, CV_16UC1, cv::Scalar(3));
+  EXPECT_LT(EncodePng(flat, PngContent::kFlat).size(), 3000U);
+}
+
 class EveryColorFile : public ::testing::TestWithParam<int> {};
 
 TEST_P(EveryColorFile, IsReadAsOpenCvReadsIt) {
