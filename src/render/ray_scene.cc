@@ -64,10 +64,10 @@ RTCIntersectContext CoherentContext() {
 
 class RayScene::Impl {
  public:
-  explicit Impl(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
+  Impl(const Scene& scene, Edges edges) : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) throw InputError("Embree: cannot make a device on this processor");
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    if (edges == Edges::kTight) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < scene.parts().size(); ++i) {
       Attach(device_, scene.parts()[i].mesh, static_cast<unsigned>(i), scene_);
     }
@@ -95,7 +95,8 @@ void RayBatch::Resize(std::size_t size) {
   length.Resize(size);
 }
 
-RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<const Impl>(scene)) {}
+RayScene::RayScene(const Scene& scene, Edges edges)
+    : impl_(std::make_unique<const Impl>(scene, edges)) {}
 RayScene::~RayScene() = default;
 
 void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {

@@ -159,7 +159,11 @@ struct Workspace {
 class Renderer::Impl {
  public:
   Impl(const Scene& scene, const Options& options)
-      : scene_(scene), options_(options), ray_scene_(scene), triangles_(scene) {}
+      : scene_(scene),
+        options_(options),
+        ray_scene_(scene, RayScene::Edges::kTight),
+        fast_ray_scene_(scene, RayScene::Edges::kFast),
+        triangles_(scene) {}
 
   IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera, int num_threads) const {
     const View view = {rays, T_world_camera.translation, T_world_camera.rotation.toRotationMatrix(),
@@ -174,7 +178,7 @@ class Renderer::Impl {
     SurfacePoints& points = workspace->points;
     points.Resize(static_cast<std::size_t>(view.stride) * size.height);
     ForRows(size.height, num_threads, [&](int row) { TraceRow(view, row, points, &image); });
-    workspace->light.Fill(scene_, ray_scene_, {points, size.width, size.height, view.stride},
+    workspace->light.Fill(scene_, fast_ray_scene_, {points, size.width, size.height, view.stride},
                           {options_.shadows, static_cast<float>(options_.occlusion_reach)},
                           num_threads);
     ForRows(size.height, num_threads, [&](int row) { ShadeRow(view, row, *workspace, &image); });
@@ -296,7 +300,7 @@ class Renderer::Impl {
       }
     }
     HitBatch hits;
-    ray_scene_.Intersect(rays.batch(), &hits);
+    fast_ray_scene_.Intersect(rays.batch(), &hits);
     SurfacePoints points;
     points.Resize(rays.batch().size());
     triangles_.Locate(rays.batch(), hits, view.pixel_angle, 0, &points);
@@ -318,7 +322,8 @@ class Renderer::Impl {
 
   const Scene& scene_;
   Options options_;
-  RayScene ray_scene_;
+  RayScene ray_scene_;       // For what is truth.
+  RayScene fast_ray_scene_;  // For what only adds to colour.
   TriangleTable triangles_;
   mutable Guarded<std::vector<std::unique_ptr<Workspace>>> idle_;
 };
