@@ -217,6 +217,7 @@ void LightBuffer::SampleRow(const Casting& casting, int row) {
     rays.direction.Set(i, AboveSurface(face_normal_.At(first + i), disc));
     rays.length.Set(i, casting.options.occlusion_reach);
   }
+  rays.is_coherent = false;
   cast(kMaxLights);
 }
 

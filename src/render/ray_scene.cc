@@ -53,10 +53,11 @@ void FillValid(const RayBatch& rays, std::size_t first, int* valid) {
   }
 }
 
-RTCIntersectContext CoherentContext() {
+RTCIntersectContext ContextOf(const RayBatch& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = rays.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                   : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
 }
 
@@ -103,7 +104,7 @@ void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {
   hits->part.resize(rays.size() + FloatRow::kRoom);
   hits->triangle.resize(rays.size() + FloatRow::kRoom);
   for (FloatRow* row : {&hits->u, &hits->v, &hits->distance}) row->Resize(rays.size());
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(rays);
   RTCRayHit8 packet = {};
   std::fill_n(packet.ray.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;
@@ -126,7 +127,7 @@ void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {
 
 void RayScene::Visibility(const RayBatch& rays, FloatRow* visible) const {
   visible->Resize(rays.size());
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(rays);
   RTCRay8 packet = {};
   std::fill_n(packet.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;

@@ -22,6 +22,8 @@ class RayBatch {
   VectorRow origin;
   VectorRow direction;
   FloatRow length;
+  // Neighbours go nearly the same way, which makes them faster. Only a hint.
+  bool is_coherent = true;
 
  private:
   std::size_t size_ = 0;
@@ -52,7 +54,6 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
   ~RayScene();
 
-  // Rays that lie close together are fast.
   void Intersect(const RayBatch& rays, HitBatch* hits) const;
   // 0 where something is in the ray's way or the ray is not cast, else 1.
   void Visibility(const RayBatch& rays, FloatRow* visible) const;
