@@ -247,8 +247,16 @@ class Renderer::Impl {
         if (HasContrast(*radiance, column, row)) columns[row].push_back(column);
       }
     });
-    ForRows(radiance->rows, num_threads, [&](int row) {
-      SmoothPixels(view, row, columns[row], workspace.light, radiance->ptr<cv::Vec3f>(row));
+    constexpr int kBand = 4;  // Rows whose pixels are smoothed together.
+    ForRows((radiance->rows + kBand - 1) / kBand, num_threads, [&](int band) {
+      std::vector<cv::Point> pixels;
+      for (int row = kBand * band; row < std::min(kBand * (band + 1), radiance->rows); ++row) {
+        for (const int column : columns[row]) pixels.emplace_back(column, row);
+      }
+      // So that neighbours on upright edges are cast together, too.
+      std::stable_sort(pixels.begin(), pixels.end(),
+                       [](const cv::Point& a, const cv::Point& b) { return a.x < b.x; });
+      SmoothPixels(view, std::move(pixels), workspace.light, radiance);
     });
   }
 
@@ -277,23 +285,23 @@ class Renderer::Impl {
     return columns;
   }
 
-  // `columns`: of the row. Four points, of two pixels, are computed together.
+  // Four points, of two pixels, are computed together.
   void SmoothPixels(const View& view,
-                    int row,
-                    std::vector<int> columns,
+                    std::vector<cv::Point> pixels,
                     const LightBuffer& light,
-                    cv::Vec3f* pixels) const {
+                    cv::Mat* radiance) const {
     constexpr std::size_t kSamples = 2;
     constexpr std::array<std::array<float, 2>, kSamples> kOffsets = {
         {{-0.35F, -0.2F}, {0.35F, 0.2F}}};
-    const std::size_t num_pixels = columns.size();
-    if (num_pixels % 2 != 0) columns.push_back(columns.back());
-    CameraRays rays(view, columns.size() * kSamples);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const int x = columns[i];
-      const Eigen::Vector2f center = view.rays.At(x, row);
-      const Eigen::Vector2f step_x = x + 1 < view.rays.width() ? view.rays.At(x + 1, row) - center
-                                                               : center - view.rays.At(x - 1, row);
+    if (pixels.empty()) return;
+    const std::size_t num_pixels = pixels.size();
+    if (num_pixels % 2 != 0) pixels.push_back(pixels.back());
+    CameraRays rays(view, pixels.size() * kSamples);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const auto [x, y] = pixels[i];
+      const Eigen::Vector2f center = view.rays.At(x, y);
+      const Eigen::Vector2f step_x = x + 1 < view.rays.width() ? view.rays.At(x + 1, y) - center
+                                                               : center - view.rays.At(x - 1, y);
       const Eigen::Vector2f step_y(-step_x.y(), step_x.x());
       for (std::size_t k = 0; k < kSamples; ++k) {
         rays.Set(i * kSamples + k, center + kOffsets[k][0] * step_x + kOffsets[k][1] * step_y);
@@ -307,16 +315,17 @@ class Renderer::Impl {
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
     for (std::size_t i = 0; i < num_pixels; i += 2) {
       std::array<cv::Vec3f, 2 * kSamples> samples;
-      const int left = columns[i];
-      const int right = columns[i + 1];
+      const cv::Point& a = pixels[i];
+      const cv::Point& b = pixels[i + 1];
       const Lighting arriving =
-          light.NearPixels(points, i * kSamples, {left, left, right, right}, row);
+          light.NearPixels(points, i * kSamples, {a.x, a.x, b.x, b.x}, {a.y, a.y, b.y, b.y});
       SetColor(Shade(scene_, points, i * kSamples, eye, arriving), 2 * kSamples, samples.data());
-      const auto smooth = [](cv::Vec3f& color, const cv::Vec3f& a, const cv::Vec3f& b) {
-        color = (color + a + b) * (1.0F / (kSamples + 1));
+      const auto smooth = [&](const cv::Point& pixel, std::size_t first) {
+        auto& color = radiance->at<cv::Vec3f>(pixel);
+        color = (color + samples[first] + samples[first + 1]) * (1.0F / (kSamples + 1));
       };
-      smooth(pixels[left], samples[0], samples[1]);
-      if (i + 1 < num_pixels) smooth(pixels[right], samples[2], samples[3]);
+      smooth(a, 0);
+      if (i + 1 < num_pixels) smooth(b, kSamples);
     }
   }
 
