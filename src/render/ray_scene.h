@@ -22,6 +22,9 @@ class RayBatch {
   VectorRow origin;
   VectorRow direction;
   FloatRow length;
+  // If not 0, the batch holds two rows of so many rays (a multiple of 4), of neighbouring pixels in
+  // both directions.
+  std::size_t row_length = 0;
   // Neighbours go nearly the same way, which makes them faster. Only a hint.
   bool is_coherent = true;
 

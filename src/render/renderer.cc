@@ -59,6 +59,8 @@ class CameraRays {
     batch_.direction.y[index] = direction.y();
     batch_.direction.z[index] = direction.z();
   }
+  // As of RayBatch.
+  void SetRowLength(std::size_t row_length) { batch_.row_length = row_length; }
   const RayBatch& batch() const { return batch_; }
 
  private:
@@ -177,7 +179,8 @@ class Renderer::Impl {
     std::unique_ptr<Workspace> workspace = TakeWorkspace();
     SurfacePoints& points = workspace->points;
     points.Resize(static_cast<std::size_t>(view.stride) * size.height);
-    ForRows(size.height, num_threads, [&](int row) { TraceRow(view, row, points, &image); });
+    ForRows((size.height + 1) / 2, num_threads,
+            [&](int pair) { TracePair(view, pair, points, &image); });
     workspace->light.Fill(scene_, fast_ray_scene_, {points, size.width, size.height, view.stride},
                           {options_.shadows, static_cast<float>(options_.occlusion_reach)},
                           num_threads);
@@ -204,21 +207,40 @@ class Renderer::Impl {
     });
   }
 
-  // Fills one row of surface points, depth, labels and incidence.
-  void TraceRow(const View& view, int row, SurfacePoints& points, IdealImage* image) const {
+  // Fills a pair of rows of surface points, depth, labels and incidence.
+  void TracePair(const View& view, int pair, SurfacePoints& points, IdealImage* image) const {
     const int width = view.rays.width();
-    CameraRays rays(view, static_cast<std::size_t>(view.stride));
-    for (int x = 0; x < view.stride; ++x) rays.Set(x, view.rays.At(std::min(x, width - 1), row));
+    const int first_row = 2 * pair;
+    const int num_rows = std::min(2, view.rays.height() - first_row);
+    const std::size_t stride = view.stride;
+    CameraRays rays(view, num_rows * stride);
+    for (int i = 0; i < num_rows; ++i) {
+      for (int x = 0; x < view.stride; ++x)
+        rays.Set(i * stride + x, view.rays.At(std::min(x, width - 1), first_row + i));
+    }
+    if (num_rows == 2) rays.SetRowLength(stride);
     HitBatch hits;
     ray_scene_.Intersect(rays.batch(), &hits);
-    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
-    triangles_.Locate(rays.batch(), hits, view.pixel_angle, first, &points);
+    triangles_.Locate(rays.batch(), hits, view.pixel_angle, first_row * stride, &points);
+    for (int i = 0; i < num_rows; ++i)
+      SetTruth(view, first_row + i, hits, i * stride, points, image);
+  }
+
+  // Depth, labels and incidence of a row, whose hits start at an index.
+  void SetTruth(const View& view,
+                int row,
+                const HitBatch& hits,
+                std::size_t index,
+                const SurfacePoints& points,
+                IdealImage* image) const {
     ExactDepth exact(scene_, view);
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t part = hits.part[x];
+    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
+    for (int x = 0; x < view.rays.width(); ++x, ++index) {
+      const std::uint32_t part = hits.part[index];
       const bool is_hit = part != Hit::kNone;
       image->depth.at<double>(row, x) =
-          is_hit ? exact.At(part, hits.triangle[x], view.rays.At(x, row), hits.distance[x]) : 0.0;
+          is_hit ? exact.At(part, hits.triangle[index], view.rays.At(x, row), hits.distance[index])
+                 : 0.0;
       image->labels.at<std::uint16_t>(row, x) = is_hit ? scene_.parts()[part].instance_id : 0;
       image->incidence.at<float>(row, x) = points.incidence[first + x];
     }
