@@ -125,7 +125,7 @@ class RayScene::Impl {
 };
 
 void RayBatch::Resize(std::size_t size) {
-  size_ = size;
+  num_rays = size;
   origin.Resize(size);
   direction.Resize(size);
   length.Resize(size);

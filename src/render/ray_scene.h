@@ -14,10 +14,9 @@ namespace semslam {
 
 // Rays side by side. A ray starts at `origin` and ends after `length` times `direction`; one with a
 // negative length is not cast.
-class RayBatch {
- public:
+struct RayBatch {
   void Resize(std::size_t size);
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return num_rays; }
 
   VectorRow origin;
   VectorRow direction;
@@ -27,9 +26,7 @@ class RayBatch {
   std::size_t row_length = 0;
   // Neighbours go nearly the same way, which makes them faster. Only a hint.
   bool is_coherent = true;
-
- private:
-  std::size_t size_ = 0;
+  std::size_t num_rays = 0;  // As resized to.
 };
 
 struct Hit {
