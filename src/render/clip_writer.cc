@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "semslam/render/clip_writer.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "semslam/base/error.h"
+#include "semslam/base/guarded.h"
 #include "semslam/base/parallel.h"
 #include "semslam/io/atomic_file.h"
 #include "semslam/io/png_writer.h"
@@ -22,7 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kFramesAtOnce = 8;
 constexpr const char* kInstancesFile = "instances.json";
 constexpr std::array kListFiles = {"rgb.txt", "depth.txt", "associations.txt", "groundtruth.txt"};
 constexpr std::array kFrameFolders = {"rgb", "depth", "labels", "detections"};
@@ -139,9 +138,9 @@ void WriteFrame(const RenderedClip& clip,
                 const DetectionOptions& options) {
   const RenderedFrame frame = clip.Frame(index, 1);
   const std::string stamp = FormatTime(frame.time);
-  // A noisy picture has no runs to look for.
+  // Noise has no runs to look for.
   WritePng(folder / "rgb" / (stamp + ".png"), frame.color, PngContent::kPhoto);
-  WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u, PngContent::kFlat);
+  WritePng(folder / "depth" / (stamp + ".png"), frame.depth_16u, PngContent::kPhoto);
   WritePng(folder / "labels" / (stamp + ".png"), frame.ideal.labels, PngContent::kFlat);
   std::vector<TrueDetection> detections;
   if (!clip.IsCovered(index)) {
@@ -162,19 +161,29 @@ void WriteClip(const RenderedClip& clip,
   WriteFileAtomically(folder / kInstancesFile, InstancesText(clip));
   WriteFileAtomically(folder / "settings.yaml", SettingsText(clip));
   WriteClassNames(detections, folder / "detections" / "classes.names");
+  Guarded<std::size_t> num_written(0);
+  const auto write_frame = [&](std::size_t index) {
+    WriteFrame(clip, index, folder, detections);
+    if (!progress) return;
+    num_written.Write([&](std::size_t& count) { progress(++count); });
+  };
+  // Whole frames side by side, each on one thread: less waiting than rows side by side. Beside
+  // them the surface, which takes longest and so comes first.
+  const auto write_piece = [&](std::size_t index) {
+    if (index == 0) {
+      WriteTrueSurface(folder / "surface.pcd", SampleTrueSurface(clip));
+    } else {
+      write_frame(index - 1);
+    }
+  };
+  ParallelFor(clip.num_frames() + 1, 1, clip.options().num_threads,
+              [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) write_piece(i);
+              });
   FrameLists lists;
-  // Whole frames side by side, each on one thread: less waiting than rows side by side.
-  for (std::size_t first = 0; first < clip.num_frames(); first += kFramesAtOnce) {
-    const std::size_t count = std::min(kFramesAtOnce, clip.num_frames() - first);
-    ParallelFor(count, 1, clip.options().num_threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) WriteFrame(clip, first + i, folder, detections);
-    });
-    for (std::size_t i = first; i < first + count; ++i)
-      lists.Add(clip.Time(i), clip.T_world_camera(i));
-    if (progress) progress(first + count);
-  }
+  for (std::size_t i = 0; i < clip.num_frames(); ++i)
+    lists.Add(clip.Time(i), clip.T_world_camera(i));
   WriteLists(lists, folder);
-  WriteTrueSurface(folder / "surface.pcd", SampleTrueSurface(clip));
 }
 
 }  // namespace semslam

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "semslam/base/parallel.h"
 #include "semslam/render/hash.h"
@@ -84,13 +86,18 @@ class Smear {
   Motion close_;
 };
 
-// A pixel's B, G, R, 0.
-Float4 PixelAt(const cv::Vec3f* row, int column) {
-  const float* values = row[column].val;
-  const __m128 blue_green =
-      _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(values)));
-  return Float4(_mm_movelh_ps(blue_green, _mm_load_ss(values + 2)));
-}
+// Two neighbours of a row: B, G, R, and a number that means nothing.
+struct PixelPair {
+  // Reads the pixels alone, as there may be nothing behind the last one.
+  explicit PixelPair(const cv::Vec3f* pixels) : left(Float4::Load(pixels->val)) {
+    const __m128 last_four = _mm_loadu_ps(pixels->val + 2);  // R, B, G, R
+    right = Float4(_mm_shuffle_ps(last_four, last_four, _MM_SHUFFLE(0, 3, 2, 1)));
+  }
+  Float4 Between(Float4 weight) const { return left + weight * (right - left); }
+
+  Float4 left;
+  Float4 right;
+};
 
 // Bilinear, clamped at the borders.
 Float4 RadianceAt(const cv::Mat& radiance, float x, float y) {
@@ -100,17 +107,19 @@ Float4 RadianceAt(const cv::Mat& radiance, float x, float y) {
   const int y0 = std::min(static_cast<int>(y), radiance.rows - 2);
   const Float4 wx = x - static_cast<float>(x0);
   const Float4 wy = y - static_cast<float>(y0);
-  const auto* upper = radiance.ptr<cv::Vec3f>(y0);
-  const auto* lower = radiance.ptr<cv::Vec3f>(y0 + 1);
-  const Float4 top = PixelAt(upper, x0) + wx * (PixelAt(upper, x0 + 1) - PixelAt(upper, x0));
-  const Float4 bottom = PixelAt(lower, x0) + wx * (PixelAt(lower, x0 + 1) - PixelAt(lower, x0));
+  const Float4 top = PixelPair(radiance.ptr<cv::Vec3f>(y0) + x0).Between(wx);
+  const Float4 bottom = PixelPair(radiance.ptr<cv::Vec3f>(y0 + 1) + x0).Between(wx);
   return top + wy * (bottom - top);
 }
 
 // Mean along the line that the point draws during the exposure.
 Float4 SmearedRadiance(const cv::Mat& radiance, int column, int row, float dx, float dy) {
   const float length = std::sqrt(dx * dx + dy * dy);
-  if (length < 0.4F) return PixelAt(radiance.ptr<cv::Vec3f>(row), column);
+  if (length < 0.4F) {
+    const int left = std::min(column, radiance.cols - 2);
+    const PixelPair pair(radiance.ptr<cv::Vec3f>(row) + left);
+    return left == column ? pair.left : pair.right;
+  }
   const int num_taps = std::clamp(static_cast<int>(length + 0.9F), 2, 16);
   const float step = 1.0F / static_cast<float>(num_taps);
   Float4 sum;
@@ -129,43 +138,64 @@ double GainAt(const FrameMotion& motion, const ColorSensorOptions& options) {
   return options.gain * (1.0 + options.gain_drift * wave);
 }
 
-// Random numbers for a row, one list a channel: nearly normal, mean 0, standard deviation 1, the
-// sum of four whole numbers from 0 to 31. Never beyond 3.4.
-using NoiseRow = std::array<FloatRow, 3>;
+// What a row needs on its way from light to levels. Colours are as in the picture: B, G, R, B, ...
+struct RowBuffers {
+  explicit RowBuffers(std::size_t width) : noise(3 * width + FloatRow::kRoom, kMeanNoise) {
+    shift_x.Resize(width);
+    shift_y.Resize(width);
+    light.Resize(3 * width);
+  }
 
-void FillNoise(std::uint64_t frame_seed, int row, int width, NoiseRow* noise) {
-  // Mean 62, variance 4 * (32^2 - 1) / 12.
-  constexpr float kScale = 1.0F / 18.466185F;
+  static constexpr std::uint8_t kMeanNoise = 62;
+
+  FloatRow shift_x;
+  FloatRow shift_y;
+  FloatRow light;
+  // Nearly normal: the sum of four whole numbers from 0 to 31. Never beyond 3.4 deviations.
+  std::vector<std::uint8_t> noise;
+};
+
+void FillNoise(std::uint64_t frame_seed, int row, int width, std::uint8_t* noise) {
+  // Three numbers for each of the three channels side by side; every second of the four numbers.
+  constexpr std::uint64_t kTwo = 0x1fU | 0x1fU << 10;
+  constexpr std::uint64_t kMask = kTwo | kTwo << 21 | kTwo << 42;
   const std::uint64_t first = static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(width);
   for (int x = 0; x < width; ++x) {
-    std::uint64_t bits = HashOf(frame_seed, first + static_cast<std::uint64_t>(x));
-    for (FloatRow& channel : *noise) {
-      const auto sum = static_cast<int>((bits & 31U) + (bits >> 5 & 31U) + (bits >> 10 & 31U) +
-                                        (bits >> 15 & 31U));
-      channel[x] = static_cast<float>(sum - 62) * kScale;
-      bits >>= 21;
-    }
+    const std::uint64_t bits = HashOf(frame_seed, first + static_cast<std::uint64_t>(x));
+    const std::uint64_t pairs = (bits & kMask) + (bits >> 5 & kMask);
+    const std::uint64_t sums = pairs + (pairs >> 10);
+    for (int k = 0; k < 3; ++k)
+      noise[3 * x + k] = static_cast<std::uint8_t>(sums >> (21 * k) & 0x7fU);
   }
 }
 
-// Light to grey level, with noise that grows with the level.
-void DevelopRow(const std::array<FloatRow, 3>& light,
-                const NoiseRow& noise,
+// Light to grey level, with noise that grows with the level. `size`: colours of the row.
+void DevelopRow(const RowBuffers& buffers,
                 const ColorSensorOptions& options,
-                int width,
-                cv::Vec3b* pixels) {
+                int size,
+                std::uint8_t* levels) {
+  constexpr float kScale = 1.0F / 18.466185F;  // Variance 4 * (32^2 - 1) / 12.
   const auto read = static_cast<float>(options.read_noise);
   const auto shot = static_cast<float>(options.shot_noise);
-  alignas(16) std::array<float, 4> values;
-  for (int k = 0; k < 3; ++k) {
-    for (int x = 0; x < width; x += 4) {
-      const Float4 level = Min(Sqrt(Max(light[k].At(x), 0.0F)), 1.0F);
-      const Float4 deviation = Sqrt(Float4(read * read) + Float4(shot * shot) * level);
-      const Float4 value = Float4(255.0F) * level + deviation * noise[k].At(x) + 0.5F;
-      Min(Max(value, 0.0F), 255.0F).Store(values.data());
-      const int count = std::min(4, width - x);
-      for (int i = 0; i < count; ++i) pixels[x + i][k] = static_cast<std::uint8_t>(values[i]);
-    }
+  const __m128i zero = _mm_setzero_si128();
+  const auto develop = [&](Float4 light, __m128i sums) {
+    const Float4 noise =
+        Float4(_mm_cvtepi32_ps(_mm_sub_epi32(sums, _mm_set1_epi32(RowBuffers::kMeanNoise)))) *
+        kScale;
+    const Float4 level = Min(Sqrt(Max(light, 0.0F)), 1.0F);
+    const Float4 deviation = Sqrt(Float4(read * read) + Float4(shot * shot) * level);
+    const Float4 value = Float4(255.0F) * level + deviation * noise + 0.5F;
+    return _mm_cvttps_epi32(Min(Max(value, 0.0F), 255.0F).lanes);
+  };
+  for (int i = 0; i < size; i += 8) {
+    const __m128i sums = _mm_unpacklo_epi8(
+        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(buffers.noise.data() + i)), zero);
+    const __m128i words =
+        _mm_packs_epi32(develop(buffers.light.At(i), _mm_unpacklo_epi16(sums, zero)),
+                        develop(buffers.light.At(i + 4), _mm_unpackhi_epi16(sums, zero)));
+    std::array<std::uint8_t, 8> bytes;
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(bytes.data()), _mm_packus_epi16(words, words));
+    std::memcpy(levels + i, bytes.data(), std::min(8, size - i));
   }
 }
 
@@ -202,30 +232,22 @@ cv::Mat SenseColor(const IdealImage& ideal,
   const std::uint64_t frame_seed = HashOf(motion.seed, kNoiseStream, motion.frame);
   const bool is_noisy = options.read_noise > 0 || options.shot_noise > 0;
   cv::Mat color(ideal.radiance.size(), CV_8UC3);
-  const auto size = static_cast<std::size_t>(color.cols);
-  const auto sense_row = [&](int row) {
-    FloatRow shift_x;
-    FloatRow shift_y;
-    std::array<FloatRow, 3> light;
-    NoiseRow noise;
-    for (FloatRow* list : {&shift_x, &shift_y}) list->Resize(size);
-    for (FloatRow& list : light) list.Resize(size);
-    for (FloatRow& list : noise) list.Resize(size);
-    if (options.exposure_s > 0) smear.Fill(ideal.depth, row, &shift_x, &shift_y);
+  const auto sense_row = [&](int row, RowBuffers& buffers) {
+    if (options.exposure_s > 0) smear.Fill(ideal.depth, row, &buffers.shift_x, &buffers.shift_y);
     const float dy = static_cast<float>(row) - center_y;
     for (int x = 0; x < color.cols; ++x) {
       const float dx = static_cast<float>(x) - center_x;
       const float brightness = gain * (1.0F - vignetting * (dx * dx + dy * dy) / corner);
-      std::array<float, 4> values;
-      (brightness * SmearedRadiance(ideal.radiance, x, row, shift_x[x], shift_y[x]))
-          .Store(values.data());
-      for (int k = 0; k < 3; ++k) light[k][x] = values[k];
+      const Float4 light = brightness * SmearedRadiance(ideal.radiance, x, row, buffers.shift_x[x],
+                                                        buffers.shift_y[x]);
+      buffers.light.Set(3 * static_cast<std::size_t>(x), light);  // One more: overwritten next.
     }
-    if (is_noisy) FillNoise(frame_seed, row, color.cols, &noise);
-    DevelopRow(light, noise, options, color.cols, color.ptr<cv::Vec3b>(row));
+    if (is_noisy) FillNoise(frame_seed, row, color.cols, buffers.noise.data());
+    DevelopRow(buffers, options, 3 * color.cols, color.ptr<std::uint8_t>(row));
   };
   ParallelFor(color.rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row) sense_row(static_cast<int>(row));
+    RowBuffers buffers(static_cast<std::size_t>(color.cols));
+    for (std::size_t row = first; row < last; ++row) sense_row(static_cast<int>(row), buffers);
   });
   return color;
 }

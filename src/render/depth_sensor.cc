@@ -40,12 +40,74 @@ void FindShadows(const double* depth,
   // the leftmost direction so far is hidden by the nearer point that was there.
   double leftmost = std::numeric_limits<double>::infinity();
   for (int x = static_cast<int>(disparities.size()) - 1; x >= 0; --x) {
+    (*shadowed)[x] = 0;
     if (depth[x] <= 0) continue;
     const double direction = x - disparities[x];
     (*shadowed)[x] = direction > leftmost + 0.5 ? 1 : 0;
     leftmost = std::min(leftmost, direction);
   }
 }
+
+// 1 for each pixel of a row from which another one, at most `reach` rows and columns away, differs
+// by a jump.
+class JumpFinder {
+ public:
+  JumpFinder(const cv::Mat& depth, int reach)
+      : depth_(depth),
+        reach_(reach),
+        lowest_(static_cast<std::size_t>(depth.cols) + 2 * reach),
+        highest_(lowest_.size()),
+        low_(static_cast<std::size_t>(depth.cols)),
+        high_(low_.size()) {}
+
+  void Find(int row, std::vector<std::uint8_t>* near_jump) {
+    FindColumnLimits(row);
+    const std::size_t width = low_.size();
+    std::copy_n(lowest_.begin(), width, low_.begin());
+    std::copy_n(highest_.begin(), width, high_.begin());
+    for (int shift = 1; shift <= 2 * reach_; ++shift) {
+      for (std::size_t x = 0; x < width; ++x) {
+        low_[x] = std::min(low_[x], lowest_[x + shift]);
+        high_[x] = std::max(high_[x], highest_[x + shift]);
+      }
+    }
+    const auto* center = depth_.ptr<double>(row);
+    for (std::size_t x = 0; x < width; ++x) {
+      const double z = center[x];
+      (*near_jump)[x] = std::max(high_[x] - z, z - low_[x]) > kJump * z ? 1 : 0;
+    }
+  }
+
+ private:
+  // Of each column, within reach of the row. Before the first and behind the last column they
+  // are repeated.
+  void FindColumnLimits(int row) {
+    const std::size_t width = low_.size();
+    double* lowest = lowest_.data() + reach_;
+    double* highest = highest_.data() + reach_;
+    std::copy_n(depth_.ptr<double>(row), width, lowest);
+    std::copy_n(depth_.ptr<double>(row), width, highest);
+    const int last = std::min(row + reach_, depth_.rows - 1);
+    for (int y = std::max(row - reach_, 0); y <= last; ++y) {
+      const auto* depths = depth_.ptr<double>(y);
+      for (std::size_t x = 0; x < width; ++x) {
+        lowest[x] = std::min(lowest[x], depths[x]);
+        highest[x] = std::max(highest[x], depths[x]);
+      }
+    }
+    for (std::vector<double>* limits : {&lowest_, &highest_}) {
+      std::fill_n(limits->begin(), reach_, (*limits)[reach_]);
+      std::fill_n(limits->rbegin(), reach_, (*limits)[width + reach_ - 1]);
+    }
+  }
+
+  const cv::Mat& depth_;
+  int reach_;
+  std::vector<double> lowest_;
+  std::vector<double> highest_;
+  std::vector<double> low_;
+  std::vector<double> high_;
+};
 
 // 1 for each pixel of a row from which one of the four neighbours differs by a jump.
 void FindJumps(const cv::Mat& depth, int row, std::vector<std::uint8_t>* beside_jump) {
@@ -77,6 +139,9 @@ float NormalFromHalf(std::uint32_t bits) {
   return static_cast<float>(sum - 510) * (1.0F / 147.80053F);
 }
 
+// The farthest that FrayedDepth looks, in rows and columns.
+int FrayReach(float fray) { return NearestInt(fray * NormalFromHalf(0xffffffffU)); }
+
 // The depth where a pixel really looks.
 double FrayedDepth(const cv::Mat& depth, int x, int y, float fray, std::uint64_t hash) {
   const double center = depth.at<double>(y, x);
@@ -88,6 +153,22 @@ double FrayedDepth(const cv::Mat& depth, int x, int y, float fray, std::uint64_t
   // Only over a jump: on one surface the sensor's window averages such shifts away.
   return std::abs(frayed - center) > kJump * center ? frayed : center;
 }
+
+// What a row needs. What an option turns off stays 0.
+struct RowBuffers {
+  RowBuffers(const cv::Mat& depth, int fray_reach)
+      : disparities(static_cast<std::size_t>(depth.cols)),
+        shadowed(disparities.size(), 0),
+        beside_jump(disparities.size(), 0),
+        near_jump(disparities.size(), 0),
+        jumps(depth, fray_reach) {}
+
+  std::vector<double> disparities;
+  std::vector<std::uint8_t> shadowed;
+  std::vector<std::uint8_t> beside_jump;  // Of one of the four neighbours.
+  std::vector<std::uint8_t> near_jump;    // Within reach of fraying.
+  JumpFinder jumps;
+};
 
 // Noise and steps of the disparity.
 class DisparityMeter {
@@ -146,23 +227,22 @@ cv::Mat SenseDepth(const IdealImage& ideal,
   const DisparityMeter meter(options);
   const auto fray = static_cast<float>(options.fray_px);
   cv::Mat depth(truth.size(), CV_16UC1, cv::Scalar(0));
-  const auto sense_row = [&](int row) {
+  const auto sense_row = [&](int row, RowBuffers& buffers) {
     const auto* depths = truth.ptr<double>(row);
     const auto* incidence = ideal.incidence.ptr<float>(row);
     auto* sensed = depth.ptr<std::uint16_t>(row);
-    std::vector<double> disparities(static_cast<std::size_t>(truth.cols));
-    std::vector<std::uint8_t> shadowed(disparities.size(), 0);
-    std::vector<std::uint8_t> beside_jump(disparities.size(), 0);
-    FillDisparities(depths, options, &disparities);
-    if (options.projector_shadow) FindShadows(depths, disparities, &shadowed);
-    if (options.hole_rate > 0) FindJumps(truth, row, &beside_jump);
+    FillDisparities(depths, options, &buffers.disparities);
+    if (options.projector_shadow) FindShadows(depths, buffers.disparities, &buffers.shadowed);
+    if (options.hole_rate > 0) FindJumps(truth, row, &buffers.beside_jump);
+    if (fray > 0) buffers.jumps.Find(row, &buffers.near_jump);
     for (int x = 0; x < truth.cols; ++x) {
-      if (depths[x] <= 0 || shadowed[x] != 0 || incidence[x] < options.min_incidence) continue;
+      if (depths[x] <= 0 || buffers.shadowed[x] != 0 || incidence[x] < options.min_incidence)
+        continue;
       const std::uint64_t hash =
           HashOf(frame_seed, static_cast<std::uint64_t>(row) * truth.cols + x);
-      if (beside_jump[x] != 0 && UnitFloat(hash) < options.hole_rate) continue;
-      double disparity = disparities[x];
-      if (fray > 0) {
+      if (buffers.beside_jump[x] != 0 && UnitFloat(hash) < options.hole_rate) continue;
+      double disparity = buffers.disparities[x];
+      if (buffers.near_jump[x] != 0) {
         const double frayed = FrayedDepth(truth, x, row, fray, MixBits(hash + 1));
         if (frayed <= 0) continue;
         if (frayed != depths[x]) disparity = Disparity(options, frayed);
@@ -175,7 +255,8 @@ cv::Mat SenseDepth(const IdealImage& ideal,
     }
   };
   ParallelFor(depth.rows, kRowsPerChunk, num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t row = first; row < last; ++row) sense_row(static_cast<int>(row));
+    RowBuffers buffers(truth, FrayReach(fray));
+    for (std::size_t row = first; row < last; ++row) sense_row(static_cast<int>(row), buffers);
   });
   return depth;
 }

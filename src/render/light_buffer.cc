@@ -217,6 +217,7 @@ void LightBuffer::SampleRow(const Casting& casting, int row) {
     rays.direction.Set(i, AboveSurface(face_normal_.At(first + i), disc));
     rays.length.Set(i, casting.options.occlusion_reach);
   }
+  rays.is_coherent = false;
   cast(kMaxLights);
 }
 
@@ -273,17 +274,17 @@ Lighting LightBuffer::AtPixels(const SurfacePoints& points,
 Lighting LightBuffer::NearPixels(const SurfacePoints& points,
                                  std::size_t index,
                                  const std::array<int, 4>& columns,
-                                 int row) const {
+                                 const std::array<int, 4>& rows) const {
   if (is_even_) return FullLight();
   const Place place = PlaceOf(points, index);
   Mean mean;
-  for (int dy = 0; dy <= (row & 1); ++dy) {
-    const int sample_row = std::min(row / 2 + dy, num_rows_ - 1);
-    for (int dx = 0; dx <= 1; ++dx) {  // The same sample twice, if a pixel lies on it.
+  for (int dy = 0; dy <= 1; ++dy) {  // The same sample more than once, if a pixel lies on it.
+    for (int dx = 0; dx <= 1; ++dx) {
       std::array<std::size_t, 4> others;
       for (std::size_t lane = 0; lane < others.size(); ++lane) {
         const int column = (columns[lane] + dx) / 2;
-        others[lane] = IndexOf(std::min(column, num_columns_ - 1), sample_row);
+        const int row = (rows[lane] + dy) / 2;
+        others[lane] = IndexOf(std::min(column, num_columns_ - 1), std::min(row, num_rows_ - 1));
       }
       const auto gather = [&](const FloatRow& from) {
         return Float4(

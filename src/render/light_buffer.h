@@ -45,11 +45,11 @@ class LightBuffer {
   // Light at the pixels `column` (a multiple of 4) to `column` + 3 of a row. `points`, `index`:
   // what is seen there.
   Lighting AtPixels(const SurfacePoints& points, std::size_t index, int column, int row) const;
-  // Light at four points, each seen in or near the pixel of a row at its column.
+  // Light at four points, each seen in or near the pixel at its column and row.
   Lighting NearPixels(const SurfacePoints& points,
                       std::size_t index,
                       const std::array<int, 4>& columns,
-                      int row) const;
+                      const std::array<int, 4>& rows) const;
 
  private:
   // Rows have columns without a surface to their left and right.

@@ -33,30 +33,66 @@ void Attach(RTCDevice device, const TriangleMesh& mesh, unsigned id, RTCScene sc
   rtcReleaseGeometry(geometry);
 }
 
-constexpr std::size_t kPacket = 8;  // Rays that are cast together.
+constexpr std::size_t kHalf = 4;
+constexpr std::size_t kPacket = 2 * kHalf;  // Rays that are cast together.
 
-// Copies rays from index `first` on. All else of a packet stays 0, but for the mask.
-void FillPacket(const RayBatch& rays, std::size_t first, RTCRay8* packet) {
-  std::copy_n(rays.origin.x.data() + first, kPacket, packet->org_x);
-  std::copy_n(rays.origin.y.data() + first, kPacket, packet->org_y);
-  std::copy_n(rays.origin.z.data() + first, kPacket, packet->org_z);
-  std::copy_n(rays.direction.x.data() + first, kPacket, packet->dir_x);
-  std::copy_n(rays.direction.y.data() + first, kPacket, packet->dir_y);
-  std::copy_n(rays.direction.z.data() + first, kPacket, packet->dir_z);
-  std::copy_n(rays.length.data() + first, kPacket, packet->tfar);
-}
+// Where the rays of a packet are in their batch: two groups of neighbours.
+struct PacketPlace {
+  std::size_t first;
+  std::size_t second;
 
-// -1 for each lane that holds a ray to be cast.
-void FillValid(const RayBatch& rays, std::size_t first, int* valid) {
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    valid[i] = first + i < rays.size() && rays.length[first + i] >= 0 ? -1 : 0;
+  std::size_t IndexOf(std::size_t lane) const {
+    return lane < kHalf ? first + lane : second + lane - kHalf;
+  }
+};
+
+// Calls body(place) for each packet of a batch: eight rays of a row, or four of each of two rows.
+template <typename Body>
+void ForPackets(const RayBatch& rays, const Body& body) {
+  if (rays.row_length > 0) {
+    for (std::size_t i = 0; i < rays.row_length; i += kHalf)
+      body(PacketPlace{i, rays.row_length + i});
+  } else {
+    for (std::size_t i = 0; i < rays.size(); i += kPacket) body(PacketPlace{i, i + kHalf});
   }
 }
 
-RTCIntersectContext CoherentContext() {
+template <typename T>
+void Gather(const T* from, const PacketPlace& place, T* packet) {
+  std::copy_n(from + place.first, kHalf, packet);
+  std::copy_n(from + place.second, kHalf, packet + kHalf);
+}
+
+template <typename T>
+void Scatter(const T* packet, const PacketPlace& place, T* to) {
+  std::copy_n(packet, kHalf, to + place.first);
+  std::copy_n(packet + kHalf, kHalf, to + place.second);
+}
+
+// All else of a packet stays 0, but for the mask.
+void FillPacket(const RayBatch& rays, const PacketPlace& place, RTCRay8* packet) {
+  Gather(rays.origin.x.data(), place, packet->org_x);
+  Gather(rays.origin.y.data(), place, packet->org_y);
+  Gather(rays.origin.z.data(), place, packet->org_z);
+  Gather(rays.direction.x.data(), place, packet->dir_x);
+  Gather(rays.direction.y.data(), place, packet->dir_y);
+  Gather(rays.direction.z.data(), place, packet->dir_z);
+  Gather(rays.length.data(), place, packet->tfar);
+}
+
+// -1 for each lane that holds a ray to be cast.
+void FillValid(const RayBatch& rays, const PacketPlace& place, int* valid) {
+  for (std::size_t lane = 0; lane < kPacket; ++lane) {
+    const std::size_t index = place.IndexOf(lane);
+    valid[lane] = index < rays.size() && rays.length[index] >= 0 ? -1 : 0;
+  }
+}
+
+RTCIntersectContext ContextOf(const RayBatch& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = rays.is_coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                   : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
 }
 
@@ -64,10 +100,10 @@ RTCIntersectContext CoherentContext() {
 
 class RayScene::Impl {
  public:
-  explicit Impl(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
+  Impl(const Scene& scene, Edges edges) : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) throw InputError("Embree: cannot make a device on this processor");
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    if (edges == Edges::kTight) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     for (std::size_t i = 0; i < scene.parts().size(); ++i) {
       Attach(device_, scene.parts()[i].mesh, static_cast<unsigned>(i), scene_);
     }
@@ -89,54 +125,56 @@ class RayScene::Impl {
 };
 
 void RayBatch::Resize(std::size_t size) {
-  size_ = size;
+  num_rays = size;
   origin.Resize(size);
   direction.Resize(size);
   length.Resize(size);
 }
 
-RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<const Impl>(scene)) {}
+RayScene::RayScene(const Scene& scene, Edges edges)
+    : impl_(std::make_unique<const Impl>(scene, edges)) {}
 RayScene::~RayScene() = default;
 
 void RayScene::Intersect(const RayBatch& rays, HitBatch* hits) const {
   hits->part.resize(rays.size() + FloatRow::kRoom);
   hits->triangle.resize(rays.size() + FloatRow::kRoom);
   for (FloatRow* row : {&hits->u, &hits->v, &hits->distance}) row->Resize(rays.size());
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(rays);
   RTCRayHit8 packet = {};
   std::fill_n(packet.ray.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    FillPacket(rays, first, &packet.ray);
-    FillValid(rays, first, valid.data());
+  ForPackets(rays, [&](const PacketPlace& place) {
+    FillPacket(rays, place, &packet.ray);
+    FillValid(rays, place, valid.data());
     std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect8(valid.data(), impl_->scene(), &context, &packet);
     static_assert(RTC_INVALID_GEOMETRY_ID == Hit::kNone);
-    std::copy_n(packet.hit.geomID, kPacket, hits->part.data() + first);
-    std::copy_n(packet.hit.primID, kPacket, hits->triangle.data() + first);
-    std::copy_n(packet.hit.u, kPacket, hits->u.data() + first);
-    std::copy_n(packet.hit.v, kPacket, hits->v.data() + first);
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      hits->distance[first + i] = packet.hit.geomID[i] == Hit::kNone ? 0.0F : packet.ray.tfar[i];
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      if (packet.hit.geomID[lane] == Hit::kNone) packet.ray.tfar[lane] = 0.0F;
     }
-  }
+    Scatter(packet.hit.geomID, place, hits->part.data());
+    Scatter(packet.hit.primID, place, hits->triangle.data());
+    Scatter(packet.hit.u, place, hits->u.data());
+    Scatter(packet.hit.v, place, hits->v.data());
+    Scatter(packet.ray.tfar, place, hits->distance.data());
+  });
 }
 
 void RayScene::Visibility(const RayBatch& rays, FloatRow* visible) const {
   visible->Resize(rays.size());
-  RTCIntersectContext context = CoherentContext();
+  RTCIntersectContext context = ContextOf(rays);
   RTCRay8 packet = {};
   std::fill_n(packet.mask, kPacket, 0xffffffffU);
   alignas(32) std::array<int, kPacket> valid;
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    FillPacket(rays, first, &packet);
-    FillValid(rays, first, valid.data());
+  ForPackets(rays, [&](const PacketPlace& place) {
+    FillPacket(rays, place, &packet);
+    FillValid(rays, place, valid.data());
     rtcOccluded8(valid.data(), impl_->scene(), &context, &packet);
-    for (std::size_t i = 0; i < kPacket; ++i) {  // Embree's "occluded" is minus infinity.
-      (*visible)[first + i] = packet.tfar[i] < 0 ? 0.0F : 1.0F;
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {  // Embree's "occluded" is minus infinity.
+      (*visible)[place.IndexOf(lane)] = packet.tfar[lane] < 0 ? 0.0F : 1.0F;
     }
-  }
+  });
 }
 
 }  // namespace semslam

@@ -59,6 +59,8 @@ class CameraRays {
     batch_.direction.y[index] = direction.y();
     batch_.direction.z[index] = direction.z();
   }
+  // As of RayBatch.
+  void SetRowLength(std::size_t row_length) { batch_.row_length = row_length; }
   const RayBatch& batch() const { return batch_; }
 
  private:
@@ -159,7 +161,11 @@ struct Workspace {
 class Renderer::Impl {
  public:
   Impl(const Scene& scene, const Options& options)
-      : scene_(scene), options_(options), ray_scene_(scene), triangles_(scene) {}
+      : scene_(scene),
+        options_(options),
+        ray_scene_(scene, RayScene::Edges::kTight),
+        fast_ray_scene_(scene, RayScene::Edges::kFast),
+        triangles_(scene) {}
 
   IdealImage Render(const RayTable& rays, const Rigid3& T_world_camera, int num_threads) const {
     const View view = {rays, T_world_camera.translation, T_world_camera.rotation.toRotationMatrix(),
@@ -173,8 +179,9 @@ class Renderer::Impl {
     std::unique_ptr<Workspace> workspace = TakeWorkspace();
     SurfacePoints& points = workspace->points;
     points.Resize(static_cast<std::size_t>(view.stride) * size.height);
-    ForRows(size.height, num_threads, [&](int row) { TraceRow(view, row, points, &image); });
-    workspace->light.Fill(scene_, ray_scene_, {points, size.width, size.height, view.stride},
+    ForRows((size.height + 1) / 2, num_threads,
+            [&](int pair) { TracePair(view, pair, points, &image); });
+    workspace->light.Fill(scene_, fast_ray_scene_, {points, size.width, size.height, view.stride},
                           {options_.shadows, static_cast<float>(options_.occlusion_reach)},
                           num_threads);
     ForRows(size.height, num_threads, [&](int row) { ShadeRow(view, row, *workspace, &image); });
@@ -200,21 +207,40 @@ class Renderer::Impl {
     });
   }
 
-  // Fills one row of surface points, depth, labels and incidence.
-  void TraceRow(const View& view, int row, SurfacePoints& points, IdealImage* image) const {
+  // Fills a pair of rows of surface points, depth, labels and incidence.
+  void TracePair(const View& view, int pair, SurfacePoints& points, IdealImage* image) const {
     const int width = view.rays.width();
-    CameraRays rays(view, static_cast<std::size_t>(view.stride));
-    for (int x = 0; x < view.stride; ++x) rays.Set(x, view.rays.At(std::min(x, width - 1), row));
+    const int first_row = 2 * pair;
+    const int num_rows = std::min(2, view.rays.height() - first_row);
+    const std::size_t stride = view.stride;
+    CameraRays rays(view, num_rows * stride);
+    for (int i = 0; i < num_rows; ++i) {
+      for (int x = 0; x < view.stride; ++x)
+        rays.Set(i * stride + x, view.rays.At(std::min(x, width - 1), first_row + i));
+    }
+    if (num_rows == 2) rays.SetRowLength(stride);
     HitBatch hits;
     ray_scene_.Intersect(rays.batch(), &hits);
-    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
-    triangles_.Locate(rays.batch(), hits, view.pixel_angle, first, &points);
+    triangles_.Locate(rays.batch(), hits, view.pixel_angle, first_row * stride, &points);
+    for (int i = 0; i < num_rows; ++i)
+      SetTruth(view, first_row + i, hits, i * stride, points, image);
+  }
+
+  // Depth, labels and incidence of a row, whose hits start at an index.
+  void SetTruth(const View& view,
+                int row,
+                const HitBatch& hits,
+                std::size_t index,
+                const SurfacePoints& points,
+                IdealImage* image) const {
     ExactDepth exact(scene_, view);
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t part = hits.part[x];
+    const std::size_t first = static_cast<std::size_t>(row) * view.stride;
+    for (int x = 0; x < view.rays.width(); ++x, ++index) {
+      const std::uint32_t part = hits.part[index];
       const bool is_hit = part != Hit::kNone;
       image->depth.at<double>(row, x) =
-          is_hit ? exact.At(part, hits.triangle[x], view.rays.At(x, row), hits.distance[x]) : 0.0;
+          is_hit ? exact.At(part, hits.triangle[index], view.rays.At(x, row), hits.distance[index])
+                 : 0.0;
       image->labels.at<std::uint16_t>(row, x) = is_hit ? scene_.parts()[part].instance_id : 0;
       image->incidence.at<float>(row, x) = points.incidence[first + x];
     }
@@ -243,8 +269,16 @@ class Renderer::Impl {
         if (HasContrast(*radiance, column, row)) columns[row].push_back(column);
       }
     });
-    ForRows(radiance->rows, num_threads, [&](int row) {
-      SmoothPixels(view, row, columns[row], workspace.light, radiance->ptr<cv::Vec3f>(row));
+    constexpr int kBand = 4;  // Rows whose pixels are smoothed together.
+    ForRows((radiance->rows + kBand - 1) / kBand, num_threads, [&](int band) {
+      std::vector<cv::Point> pixels;
+      for (int row = kBand * band; row < std::min(kBand * (band + 1), radiance->rows); ++row) {
+        for (const int column : columns[row]) pixels.emplace_back(column, row);
+      }
+      // So that neighbours on upright edges are cast together, too.
+      std::stable_sort(pixels.begin(), pixels.end(),
+                       [](const cv::Point& a, const cv::Point& b) { return a.x < b.x; });
+      SmoothPixels(view, std::move(pixels), workspace.light, radiance);
     });
   }
 
@@ -273,52 +307,54 @@ class Renderer::Impl {
     return columns;
   }
 
-  // `columns`: of the row. Four points, of two pixels, are computed together.
+  // Four points, of two pixels, are computed together.
   void SmoothPixels(const View& view,
-                    int row,
-                    std::vector<int> columns,
+                    std::vector<cv::Point> pixels,
                     const LightBuffer& light,
-                    cv::Vec3f* pixels) const {
+                    cv::Mat* radiance) const {
     constexpr std::size_t kSamples = 2;
     constexpr std::array<std::array<float, 2>, kSamples> kOffsets = {
         {{-0.35F, -0.2F}, {0.35F, 0.2F}}};
-    const std::size_t num_pixels = columns.size();
-    if (num_pixels % 2 != 0) columns.push_back(columns.back());
-    CameraRays rays(view, columns.size() * kSamples);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const int x = columns[i];
-      const Eigen::Vector2f center = view.rays.At(x, row);
-      const Eigen::Vector2f step_x = x + 1 < view.rays.width() ? view.rays.At(x + 1, row) - center
-                                                               : center - view.rays.At(x - 1, row);
+    if (pixels.empty()) return;
+    const std::size_t num_pixels = pixels.size();
+    if (num_pixels % 2 != 0) pixels.push_back(pixels.back());
+    CameraRays rays(view, pixels.size() * kSamples);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const auto [x, y] = pixels[i];
+      const Eigen::Vector2f center = view.rays.At(x, y);
+      const Eigen::Vector2f step_x = x + 1 < view.rays.width() ? view.rays.At(x + 1, y) - center
+                                                               : center - view.rays.At(x - 1, y);
       const Eigen::Vector2f step_y(-step_x.y(), step_x.x());
       for (std::size_t k = 0; k < kSamples; ++k) {
         rays.Set(i * kSamples + k, center + kOffsets[k][0] * step_x + kOffsets[k][1] * step_y);
       }
     }
     HitBatch hits;
-    ray_scene_.Intersect(rays.batch(), &hits);
+    fast_ray_scene_.Intersect(rays.batch(), &hits);
     SurfacePoints points;
     points.Resize(rays.batch().size());
     triangles_.Locate(rays.batch(), hits, view.pixel_angle, 0, &points);
     const Eigen::Vector3f eye = view.p_world_camera.cast<float>();
     for (std::size_t i = 0; i < num_pixels; i += 2) {
       std::array<cv::Vec3f, 2 * kSamples> samples;
-      const int left = columns[i];
-      const int right = columns[i + 1];
+      const cv::Point& a = pixels[i];
+      const cv::Point& b = pixels[i + 1];
       const Lighting arriving =
-          light.NearPixels(points, i * kSamples, {left, left, right, right}, row);
+          light.NearPixels(points, i * kSamples, {a.x, a.x, b.x, b.x}, {a.y, a.y, b.y, b.y});
       SetColor(Shade(scene_, points, i * kSamples, eye, arriving), 2 * kSamples, samples.data());
-      const auto smooth = [](cv::Vec3f& color, const cv::Vec3f& a, const cv::Vec3f& b) {
-        color = (color + a + b) * (1.0F / (kSamples + 1));
+      const auto smooth = [&](const cv::Point& pixel, std::size_t first) {
+        auto& color = radiance->at<cv::Vec3f>(pixel);
+        color = (color + samples[first] + samples[first + 1]) * (1.0F / (kSamples + 1));
       };
-      smooth(pixels[left], samples[0], samples[1]);
-      if (i + 1 < num_pixels) smooth(pixels[right], samples[2], samples[3]);
+      smooth(a, 0);
+      if (i + 1 < num_pixels) smooth(b, kSamples);
     }
   }
 
   const Scene& scene_;
   Options options_;
-  RayScene ray_scene_;
+  RayScene ray_scene_;       // For what is truth.
+  RayScene fast_ray_scene_;  // For what only adds to colour.
   TriangleTable triangles_;
   mutable Guarded<std::vector<std::unique_ptr<Workspace>>> idle_;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/shading.h"
 
+#include <bit>
 #include <cmath>
 
 namespace semslam {
@@ -21,35 +22,46 @@ struct Coat {
   bool has_highlights = false;
 };
 
-// Surface colour, linear. Colours are coded with gamma 2, so that decoding is a square.
-Eigen::Vector3f Albedo(const Material& material, const SurfacePoints& points, std::size_t index) {
-  Eigen::Vector3f coded = material.tint;
+// Surface colour, linear, of four points of one material. Colours are coded with gamma 2, so that
+// decoding is a square.
+Vector4 Albedo(const Material& material, const SurfacePoints& points, std::size_t index) {
+  Vector4 coded = Broadcast(material.tint);
   if (material.texture) {
-    const Eigen::Vector2f uv(points.u[index] * material.repeats_per_metre.x(),
-                             points.v[index] * material.repeats_per_metre.y());
-    const float footprint = points.footprint[index] * material.repeats_per_metre.x();
-    coded = coded.cwiseProduct(material.texture->Sample(uv, footprint));
+    const Float4 repeats_u = material.repeats_per_metre.x();
+    const Float4 repeats_v = material.repeats_per_metre.y();
+    const Texture::Colors colors = material.texture->Sample(
+        {(points.u.At(index) * repeats_u).lanes, (points.v.At(index) * repeats_v).lanes,
+         (points.footprint.At(index) * repeats_u).lanes});
+    coded = {coded.x * Float4(colors.blue), coded.y * Float4(colors.green),
+             coded.z * Float4(colors.red)};
   }
-  return coded.cwiseProduct(coded);
+  return {coded.x * coded.x, coded.y * coded.y, coded.z * coded.z};
 }
 
 Coat CoatOf(const Scene& scene, const SurfacePoints& points, std::size_t index) {
   Coat coat;
-  std::array<Lanes, 3> albedo = {};
-  Lanes emission = {};
-  for (std::size_t lane = 0; lane < 4; ++lane) {
-    const std::uint32_t part = points.part[index + lane];
-    if (part == Hit::kNone) continue;
+  const __m128i parts = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&points.part[index]));
+  const auto seen_of = [&](std::uint32_t part) {
+    return _mm_castsi128_ps(_mm_cmpeq_epi32(parts, _mm_set1_epi32(static_cast<int>(part))));
+  };
+  unsigned left = ~static_cast<unsigned>(_mm_movemask_ps(seen_of(Hit::kNone))) & 0xfU;
+  while (left != 0) {  // Mostly once: all four are points of one part.
+    const std::uint32_t part = points.part[index + std::countr_zero(left)];
+    const __m128 seen = seen_of(part);
+    const auto lanes = static_cast<unsigned>(_mm_movemask_ps(seen));
+    left &= ~lanes;
     const Material& material = scene.parts()[part].material;
-    const Eigen::Vector3f color = Albedo(material, points, index + lane);
-    for (int k = 0; k < 3; ++k) albedo[k][lane] = color[k];
-    emission[lane] = material.emission;
-    coat.materials[lane] = &material;
+    const auto where_seen = [&](Float4 value) { return Float4(_mm_and_ps(seen, value.lanes)); };
+    const Vector4 albedo = Albedo(material, points, index);
+    coat.albedo.x += where_seen(albedo.x);
+    coat.albedo.y += where_seen(albedo.y);
+    coat.albedo.z += where_seen(albedo.z);
+    coat.emission += where_seen(material.emission);
     coat.has_highlights |= material.specular > 0;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      if ((lanes >> lane & 1U) != 0) coat.materials[lane] = &material;
+    }
   }
-  coat.albedo = {Float4::Load(albedo[0].data()), Float4::Load(albedo[1].data()),
-                 Float4::Load(albedo[2].data())};
-  coat.emission = Float4::Load(emission.data());
   return coat;
 }
 

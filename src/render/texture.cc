@@ -3,7 +3,7 @@
 #include "semslam/render/texture.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -19,35 +19,47 @@ namespace {
 constexpr int kFractionBits = 7;  // Of places between texels: all of the sum fits 16 bits.
 constexpr int kOne = 1 << kFractionBits;
 
-// Largest whole number below; SSE2 has no instruction for it.
-float FastFloor(float value) {
-  const auto whole = static_cast<float>(static_cast<int>(value));
-  return whole > value ? whole - 1.0F : whole;
+// Largest whole numbers below; SSE2 has no instruction for it.
+__m128 Floor(__m128 values) {
+  const __m128 whole = _mm_cvtepi32_ps(_mm_cvttps_epi32(values));
+  return _mm_sub_ps(whole, _mm_and_ps(_mm_cmpgt_ps(whole, values), _mm_set1_ps(1.0F)));
 }
 
-// Logarithm to base 2 of a number >= 1, with an error below 0.01: a parabola between powers of two.
-float ApproximateLog2(float value) {
+// Logarithms to base 2 of numbers >= 1, with an error below 0.01: parabolas between powers of two.
+__m128 ApproximateLog2(__m128 values) {
   constexpr int kMantissaBits = 23;
   constexpr int kBias = 127;
-  const float linear =
-      static_cast<float>(std::bit_cast<std::int32_t>(value) - (kBias << kMantissaBits)) *
-      (1.0F / (1 << kMantissaBits));
-  const float part = linear - static_cast<float>(static_cast<int>(linear));
-  return linear + 0.34F * part * (1.0F - part);
+  const __m128i bits =
+      _mm_sub_epi32(_mm_castps_si128(values), _mm_set1_epi32(kBias << kMantissaBits));
+  const __m128 linear = _mm_mul_ps(_mm_cvtepi32_ps(bits), _mm_set1_ps(1.0F / (1 << kMantissaBits)));
+  const __m128 part = _mm_sub_ps(linear, _mm_cvtepi32_ps(_mm_cvttps_epi32(linear)));
+  const __m128 bend =
+      _mm_mul_ps(_mm_mul_ps(_mm_set1_ps(0.34F), part), _mm_sub_ps(_mm_set1_ps(1.0F), part));
+  return _mm_add_ps(linear, bend);
+}
+
+using FourInts = std::array<std::int32_t, 4>;
+
+FourInts Stored(__m128i values) {
+  FourInts result;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(result.data()), values);
+  return result;
 }
 
 // Between two texels: the first one's index, and the weight of the second in parts of kOne.
 struct Between {
-  int index;
-  int weight;
+  FourInts index;
+  FourInts weight;
 };
 
-Between PlaceOf(float unit, int size) {
+Between PlacesOf(__m128 units, __m128 sizes) {
   // One texel more, so that nothing is negative.
-  const auto fixed =
-      static_cast<int>((unit * static_cast<float>(size) + 0.5F) * static_cast<float>(kOne));
-  const int index = (fixed >> kFractionBits) - 1;
-  return {index < 0 ? size - 1 : index, fixed & (kOne - 1)};
+  const __m128 texels = _mm_add_ps(_mm_mul_ps(units, sizes), _mm_set1_ps(0.5F));
+  const __m128i fixed = _mm_cvttps_epi32(_mm_mul_ps(texels, _mm_set1_ps(kOne)));
+  const __m128i index = _mm_sub_epi32(_mm_srai_epi32(fixed, kFractionBits), _mm_set1_epi32(1));
+  const __m128i before = _mm_srai_epi32(index, 31);  // -1: the last texel is before the first.
+  const __m128i wrapped = _mm_add_epi32(index, _mm_and_si128(before, _mm_cvttps_epi32(sizes)));
+  return {Stored(wrapped), Stored(_mm_and_si128(fixed, _mm_set1_epi32(kOne - 1)))};
 }
 
 // Two texels side by side as eight numbers.
@@ -56,21 +68,35 @@ __m128i LoadPair(const std::uint32_t* texels) {
                            _mm_setzero_si128());
 }
 
-}  // namespace
-
 // Bilinear. Values 0 to 255 times kOne^2, in the first three places.
-__m128 Texture::Level::At(const Eigen::Vector2f& unit) const {
-  const Between x = PlaceOf(unit.x(), num_columns);
-  const Between y = PlaceOf(unit.y(), num_rows);
-  const std::size_t stride = static_cast<std::size_t>(num_columns) + 1;
-  const std::uint32_t* upper = texels.data() + y.index * stride + x.index;
+__m128 Blend(const std::uint32_t* upper, std::size_t stride, int weight_x, int weight_y) {
   const auto word = [](int value) { return static_cast<short>(value); };
   const __m128i pair =
-      _mm_add_epi16(_mm_mullo_epi16(LoadPair(upper), _mm_set1_epi16(word(kOne - y.weight))),
-                    _mm_mullo_epi16(LoadPair(upper + stride), _mm_set1_epi16(word(y.weight))));
+      _mm_add_epi16(_mm_mullo_epi16(LoadPair(upper), _mm_set1_epi16(word(kOne - weight_y))),
+                    _mm_mullo_epi16(LoadPair(upper + stride), _mm_set1_epi16(word(weight_y))));
   const __m128i channels = _mm_unpacklo_epi16(pair, _mm_unpackhi_epi64(pair, pair));
-  const __m128i weights = _mm_set1_epi32(x.weight << 16 | (kOne - x.weight));
+  const __m128i weights = _mm_set1_epi32(weight_x << 16 | (kOne - weight_x));
   return _mm_cvtepi32_ps(_mm_madd_epi16(channels, weights));
+}
+
+}  // namespace
+
+// Each place of the level that its index says.
+Texture::FourColors Texture::SampleLevels(__m128i indices, __m128 unit_x, __m128 unit_y) const {
+  const FourInts index = Stored(indices);
+  const std::array<const Level*, 4> levels = {&levels_[index[0]], &levels_[index[1]],
+                                              &levels_[index[2]], &levels_[index[3]]};
+  const Between x = PlacesOf(unit_x, _mm_setr_ps(levels[0]->num_columns, levels[1]->num_columns,
+                                                 levels[2]->num_columns, levels[3]->num_columns));
+  const Between y = PlacesOf(unit_y, _mm_setr_ps(levels[0]->num_rows, levels[1]->num_rows,
+                                                 levels[2]->num_rows, levels[3]->num_rows));
+  FourColors colors;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t stride = static_cast<std::size_t>(levels[i]->num_columns) + 1;
+    const std::uint32_t* upper = levels[i]->texels.data() + y.index[i] * stride + x.index[i];
+    colors.at[i] = Blend(upper, stride, x.weight[i], y.weight[i]);
+  }
+  return colors;
 }
 
 Texture::Texture(const cv::Mat& image) {
@@ -80,7 +106,8 @@ Texture::Texture(const cv::Mat& image) {
   while (true) {
     cv::Mat bordered;
     cv::copyMakeBorder(picture, bordered, 0, 1, 0, 1, cv::BORDER_WRAP);
-    Level level = {picture.cols, picture.rows, std::vector<std::uint32_t>(bordered.total())};
+    Level level = {static_cast<float>(picture.cols), static_cast<float>(picture.rows),
+                   std::vector<std::uint32_t>(bordered.total())};
     std::memcpy(level.texels.data(), bordered.data, bordered.total() * sizeof(std::uint32_t));
     levels_.push_back(std::move(level));
     if (picture.cols == 1 && picture.rows == 1) break;
@@ -91,24 +118,38 @@ Texture::Texture(const cv::Mat& image) {
   }
 }
 
-Eigen::Vector3f Texture::Sample(const Eigen::Vector2f& uv, float footprint) const {
-  const float texels = std::max(1.0F, footprint * static_cast<float>(levels_.front().num_columns));
-  const float place = std::min(ApproximateLog2(texels), static_cast<float>(levels_.size() - 1));
-  const auto fine = static_cast<std::size_t>(place);
-  // Near a level that one alone is taken: the other would hardly show, and costs as much.
+Texture::Colors Texture::Sample(const Places& places) const {
+  const __m128 one = _mm_set1_ps(1.0F);
+  const __m128 texels =
+      _mm_max_ps(one, _mm_mul_ps(places.footprint, _mm_set1_ps(levels_.front().num_columns)));
+  const auto last = static_cast<int>(levels_.size()) - 1;
+  const __m128 place = _mm_min_ps(ApproximateLog2(texels), _mm_set1_ps(static_cast<float>(last)));
+  const __m128i fine = _mm_cvttps_epi32(place);
+  // -1 added where there is a level more.
+  const __m128i coarse = _mm_sub_epi32(fine, _mm_cmplt_epi32(fine, _mm_set1_epi32(last)));
+  // Near a level that one alone is taken: the other would hardly show.
   constexpr float kAlone = 0.02F;
-  const float weight =
-      (place - static_cast<float>(fine) - kAlone) * (1.0F / (1.0F - 2.0F * kAlone));
-  const Eigen::Vector2f unit(uv.x() - FastFloor(uv.x()), 1.0F - (uv.y() - FastFloor(uv.y())));
-  const std::size_t coarse = std::min(fine + 1, levels_.size() - 1);
-  __m128 color = levels_[weight < 1.0F ? fine : coarse].At(unit);
-  if (weight > 0.0F && weight < 1.0F) {
-    const __m128 other = levels_[coarse].At(unit);
-    color = _mm_add_ps(color, _mm_mul_ps(_mm_set1_ps(weight), _mm_sub_ps(other, color)));
+  const __m128 weight =
+      _mm_mul_ps(_mm_sub_ps(_mm_sub_ps(place, _mm_cvtepi32_ps(fine)), _mm_set1_ps(kAlone)),
+                 _mm_set1_ps(1.0F / (1.0F - 2.0F * kAlone)));
+  const __m128 unit_x = _mm_sub_ps(places.u, Floor(places.u));
+  const __m128 unit_y = _mm_sub_ps(one, _mm_sub_ps(places.v, Floor(places.v)));
+  FourColors colors = SampleLevels(fine, unit_x, unit_y);
+  const FourColors others = SampleLevels(coarse, unit_x, unit_y);
+  alignas(16) std::array<float, 4> weights;
+  _mm_store_ps(weights.data(), _mm_min_ps(_mm_max_ps(weight, _mm_setzero_ps()), one));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const __m128 step = _mm_mul_ps(_mm_set1_ps(weights[i]), _mm_sub_ps(others.at[i], colors.at[i]));
+    colors.at[i] =
+        _mm_mul_ps(_mm_add_ps(colors.at[i], step), _mm_set1_ps(1.0F / (255.0F * kOne * kOne)));
   }
-  alignas(16) float channels[4];
-  _mm_store_ps(channels, _mm_mul_ps(color, _mm_set1_ps(1.0F / (255.0F * kOne * kOne))));
-  return {channels[0], channels[1], channels[2]};
+  _MM_TRANSPOSE4_PS(colors.at[0], colors.at[1], colors.at[2], colors.at[3]);
+  return {colors.at[0], colors.at[1], colors.at[2]};
+}
+
+Eigen::Vector3f Texture::Sample(const Eigen::Vector2f& uv, float footprint) const {
+  const Colors colors = Sample({_mm_set1_ps(uv.x()), _mm_set1_ps(uv.y()), _mm_set1_ps(footprint)});
+  return {_mm_cvtss_f32(colors.blue), _mm_cvtss_f32(colors.green), _mm_cvtss_f32(colors.red)};
 }
 
 }  // namespace semslam

@@ -53,7 +53,7 @@ class Sampler {
       : clip_(clip),
         spacing_(spacing),
         rays_(clip.camera()),
-        ray_scene_(clip.scene()),
+        ray_scene_(clip.scene(), RayScene::Edges::kTight),
         triangles_(clip.scene()),
         step_(std::max<std::size_t>(1, std::lround(clip.options().fps / kMaxRate))) {}
 

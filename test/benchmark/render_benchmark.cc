@@ -77,7 +77,7 @@ BENCHMARK(BM_SenseDepth)->Unit(benchmark::kMillisecond);
 void BM_EncodePng(benchmark::State& state) {
   const RenderedFrame frame = RenderedClip(DeskOptions()).Frame(kFrame);
   const cv::Mat images[] = {frame.color, frame.depth_16u, frame.ideal.labels};
-  const PngContent content = state.range(0) == 0 ? PngContent::kPhoto : PngContent::kFlat;
+  const PngContent content = state.range(0) < 2 ? PngContent::kPhoto : PngContent::kFlat;
   std::string bytes;
   for (auto _ : state) {
     bytes = EncodePng(images[state.range(0)], content);

@@ -42,6 +42,19 @@ TEST(Texture, FromFarAwayIsItsMean) {
   EXPECT_NEAR(color[1], 50, 1);
 }
 
+TEST(Texture, GivesFourPlacesAsEachAlone) {
+  const Texture texture(DrawCover({128, 64}, {0.2F, 0.4F, 0.6F}, 5));
+  const float u[] = {0.1F, -3.7F, 5.999F, 0.5F};
+  const float v[] = {0.9F, 0.001F, -0.3F, 2.25F};
+  const float footprint[] = {0.001F, 0.02F, 0.3F, 7.0F};
+  const Texture::Colors colors =
+      texture.Sample({_mm_loadu_ps(u), _mm_loadu_ps(v), _mm_loadu_ps(footprint)});
+  float green[4];
+  _mm_storeu_ps(green, colors.green);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(green[i], texture.Sample({u[i], v[i]}, footprint[i])[1]) << i;
+}
+
 TEST(Patterns, RepeatingOnesHaveNoSeam) {
   const auto step = [](const cv::Mat& image, int x0, int x1) {
     double sum = 0;

@@ -43,9 +43,9 @@ std::vector<TrueDetection> DetectFromLabels(const cv::Mat& labels,
 //                     the instance's id as label
 //   detections/*.txt  `class_index cx cy w h score` a line, relative to the picture; classes.names
 // The lists are written last: a folder without them is unfinished. An earlier clip in the folder is
-// replaced; a folder that holds something else is refused. `progress` is called after every few
-// frames with the number of frames written; what it throws ends the writing. Throws InputError if
-// something cannot be written.
+// replaced; a folder that holds something else is refused. `progress` is called after every frame
+// with the number of frames written, by one thread at a time but not always the same; what it
+// throws ends the writing. Throws InputError if something cannot be written.
 void WriteClip(const RenderedClip& clip,
                const std::filesystem::path& folder,
                const DetectionOptions& detections,

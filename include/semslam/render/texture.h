@@ -23,15 +23,31 @@ class Texture {
   // width).
   Eigen::Vector3f Sample(const Eigen::Vector2f& uv, float footprint) const;
 
+  // The same at four places at once.
+  struct Places {
+    __m128 u;
+    __m128 v;
+    __m128 footprint;
+  };
+  struct Colors {
+    __m128 blue;
+    __m128 green;
+    __m128 red;
+  };
+  Colors Sample(const Places& places) const;
+
  private:
   // Texels of B, G, R and a byte more. Behind the last column and row the first ones follow again.
   struct Level {
-    __m128 At(const Eigen::Vector2f& unit) const;
-
-    int num_columns;
-    int num_rows;
+    float num_columns;
+    float num_rows;
     std::vector<std::uint32_t> texels;
   };
+  struct FourColors {
+    __m128 at[4];  // B, G, R and a number more, for each of four places.
+  };
+
+  FourColors SampleLevels(__m128i indices, __m128 unit_x, __m128 unit_y) const;
 
   std::vector<Level> levels_;  // Each half as large as the one before.
 };
