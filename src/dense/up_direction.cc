@@ -41,7 +41,7 @@ std::optional<Eigen::Vector3f> CommonUpNormal(std::span<const Eigen::Vector3f> n
   // Each normal votes for the candidates within 8 degrees; the average of the winner's normals is
   // the answer.
   const float min_cosine = std::cos(8.0F * std::numbers::pi_v<float> / 180.0F);
-  constexpr std::size_t kMaxVoters = 10000;
+  constexpr std::size_t kMaxVoters = 4000;
   const std::size_t step = std::max<std::size_t>(1, normals.size() / kMaxVoters);
   std::vector<float> votes(candidates.size());
   std::vector<Eigen::Vector3f> sums(candidates.size(), Eigen::Vector3f::Zero());

@@ -13,6 +13,7 @@
 
 #include "semantics/box_claims.h"
 #include "semantics/box_foreground.h"
+#include "semantics/collect_evidence.h"
 #include "semantics/keyframe_view.h"
 
 namespace semslam {
@@ -41,8 +42,7 @@ double BorderFactor(const ImageBox& box, int column, int row, const EvidenceOpti
 // One keyframe's evidence, kept apart until all its boxes are known.
 class KeyframeJudge {
  public:
-  KeyframeJudge(const LabelledKeyframe& keyframe,
-                const VoxelIndex& index,
+  KeyframeJudge(const SeenKeyframe& keyframe,
                 const Segmentation& segmentation,
                 const ClassTable& classes,
                 const EvidenceOptions& options)
@@ -50,11 +50,12 @@ class KeyframeJudge {
         segmentation_(segmentation),
         classes_(classes),
         options_(options),
-        view_(DrawSegments(keyframe, index, segmentation)),
-        largest_inside_share_(segmentation.segments.size() + 1) {}
-
-  void AddTo(Evidence& evidence) {
+        view_(DrawSegments(keyframe, segmentation)),
+        largest_inside_share_(segmentation.segments.size() + 1) {
     for (const Detection& detection : keyframe_.detections) JudgeBox(detection);
+  }
+
+  void AddTo(Evidence& evidence) const {
     for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (IsSeen(segment, options_.min_visible_share)) ++evidence.segments[segment - 1].num_seen;
     }
@@ -175,7 +176,7 @@ class KeyframeJudge {
     }
   }
 
-  void AddBest(Evidence& evidence) {
+  void AddBest(Evidence& evidence) const {
     for (const auto& [segment, gain] : gains_) {
       SegmentEvidence& sums = evidence.segments[segment - 1];
       for (std::size_t c = 0; c < classes_.size(); ++c) {
@@ -207,7 +208,7 @@ class KeyframeJudge {
     for (const SegmentId segment : parted) ++evidence.segments[segment - 1].num_parted;
   }
 
-  const LabelledKeyframe& keyframe_;
+  const SeenKeyframe& keyframe_;
   const Segmentation& segmentation_;
   const ClassTable& classes_;
   const EvidenceOptions& options_;
@@ -239,8 +240,7 @@ void EvidenceOptions::Validate() const {
   require(background_weight >= 0, "expected background_weight >= 0");
 }
 
-Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
-                         const VoxelIndex& index,
+Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,
                          const Segmentation& segmentation,
                          const ClassTable& classes,
                          const EvidenceOptions& options) {
@@ -251,9 +251,8 @@ Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
   nothing.part_alpha.assign(classes.size(), 0);
   nothing.num_views.assign(classes.size(), 0);
   evidence.segments.assign(segmentation.segments.size(), nothing);
-  for (const LabelledKeyframe& keyframe : keyframes) {
-    const LabelledKeyframe usable = Usable(keyframe, classes);
-    KeyframeJudge(usable, index, segmentation, classes, options).AddTo(evidence);
+  for (const SeenKeyframe& keyframe : keyframes) {
+    KeyframeJudge(keyframe, segmentation, classes, options).AddTo(evidence);
   }
   return evidence;
 }

@@ -67,19 +67,16 @@ std::set<Cell> CellsInBox(SegmentId segment,
 }
 
 std::map<SegmentAndClass, Votes> CountVotes(const MapCloud& cloud,
-                                            const VoxelIndex& index,
                                             const Segmentation& segmentation,
-                                            std::span<const LabelledKeyframe> keyframes,
-                                            const std::set<SegmentAndClass>& subjects,
-                                            const ClassTable& classes) {
+                                            std::span<const SeenKeyframe> keyframes,
+                                            const std::set<SegmentAndClass>& subjects) {
   std::map<SegmentAndClass, Votes> votes;
-  for (const LabelledKeyframe& keyframe : keyframes) {
+  for (const SeenKeyframe& keyframe : keyframes) {
     if (keyframe.detections.empty()) continue;
-    const LabelledKeyframe usable = Usable(keyframe, classes);
-    const KeyframeView view = DrawSegments(usable, index, segmentation);
-    for (const Detection& detection : usable.detections) {
-      const CellRange box =
-          CellRange::Of(detection.box, usable.cloud->stride(), view.image.columns, view.image.rows);
+    const KeyframeView view = DrawSegments(keyframe, segmentation);
+    for (const Detection& detection : keyframe.detections) {
+      const CellRange box = CellRange::Of(detection.box, keyframe.cloud->stride(),
+                                          view.image.columns, view.image.rows);
       const SegmentAndClass subject(FindFilling(view.image, box), detection.class_id);
       if (!subjects.contains(subject)) continue;
       for (const Cell& cell : CellsInBox(subject.first, box, view.image, cloud))
@@ -272,9 +269,8 @@ std::vector<std::uint32_t> FindThing(const Place& place,
 }  // namespace
 
 std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
-                                              const VoxelIndex& index,
                                               const Segmentation& segmentation,
-                                              std::span<const LabelledKeyframe> keyframes,
+                                              std::span<const SeenKeyframe> keyframes,
                                               const Evidence& evidence,
                                               const ClassTable& classes) {
   std::set<SegmentAndClass> subjects;
@@ -283,8 +279,7 @@ std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
   }
   if (subjects.empty()) return std::nullopt;
   std::optional<Segmentation> result;
-  for (auto& [subject, votes] :
-       CountVotes(cloud, index, segmentation, keyframes, subjects, classes)) {
+  for (auto& [subject, votes] : CountVotes(cloud, segmentation, keyframes, subjects)) {
     Votes left = votes;
     while (const std::optional<Place> place = TakePlace(&left)) {
       const Contents contents = ContentsOf(subject.first, cloud, result ? *result : segmentation);

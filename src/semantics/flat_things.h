@@ -8,6 +8,8 @@
 #include "semslam/dense/map_cloud.h"
 #include "semslam/semantics/evidence.h"
 
+#include "semantics/keyframe_view.h"
+
 namespace semslam {
 
 // Takes flat things out of the large planes they lie on: a keyboard or a mouse that the geometry
@@ -16,9 +18,8 @@ namespace semslam {
 // there becomes a segment of its own, with a number after all others. Nothing if there is no such
 // place. Does not depend on the order of keyframes.
 std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
-                                              const VoxelIndex& index,
                                               const Segmentation& segmentation,
-                                              std::span<const LabelledKeyframe> keyframes,
+                                              std::span<const SeenKeyframe> keyframes,
                                               const Evidence& evidence,
                                               const ClassTable& classes);
 

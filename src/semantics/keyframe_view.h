@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "semslam/semantics/evidence.h"
@@ -10,6 +12,21 @@
 #include "semantics/box_foreground.h"
 
 namespace semslam {
+
+// A keyframe with the points of the map that it sees, cell by cell; the segments may still change.
+struct SeenKeyframe {
+  std::shared_ptr<const KeyframeCloud> cloud;
+  std::vector<Detection> detections;  // Without those that make no sense.
+  std::vector<std::uint32_t> points;  // In the map's cloud; kNoPoint: none there.
+  std::vector<float> depth;           // Metres; 0: none.
+  std::vector<float> areas;           // Square metres of surface.
+};
+inline constexpr std::uint32_t kNoPoint = 0xffffffff;
+
+// In the order of the keyframes, and in parallel.
+std::vector<SeenKeyframe> FindSeenPoints(std::span<const LabelledKeyframe> keyframes,
+                                         const VoxelIndex& index,
+                                         const ClassTable& classes);
 
 // How much of a segment one keyframe sees.
 struct Visibility {
@@ -23,15 +40,10 @@ struct KeyframeView {
   std::vector<Visibility> visibility;  // By segment id.
 };
 
-KeyframeView DrawSegments(const LabelledKeyframe& keyframe,
-                          const VoxelIndex& index,
-                          const Segmentation& segmentation);
+KeyframeView DrawSegments(const SeenKeyframe& keyframe, const Segmentation& segmentation);
 
 // The segment that at least half of the measured cells of a box show; 0: none.
 SegmentId FindFilling(const SegmentImage& image, const CellRange& box);
-
-// Without detections that make no sense.
-LabelledKeyframe Usable(const LabelledKeyframe& keyframe, const ClassTable& classes);
 
 // By segment id: what cannot belong to a thing of the class, whatever its box holds.
 std::vector<bool> FindBarriers(const Segmentation& segmentation,

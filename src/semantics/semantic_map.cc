@@ -12,6 +12,7 @@
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
 
+#include "semantics/collect_evidence.h"
 #include "semantics/duplicates.h"
 #include "semantics/flat_things.h"
 #include "semantics/label_segments.h"
@@ -183,21 +184,18 @@ SemanticMap BuildSemanticMap(const MapCloud& cloud,
   options.Validate();
   SEMSLAM_CHECK(segmentation.segment_of_point.size() == cloud.size())
       << segmentation.segment_of_point.size() << " labels, " << cloud.size() << " points";
+  const std::vector<SeenKeyframe> seen = FindSeenPoints(keyframes, index, classes);
   // Instead of the segmentation, where boxes know more than the geometry.
   std::optional<Segmentation> parted;
   const auto segments = [&]() -> const Segmentation& { return parted ? *parted : segmentation; };
-  const auto collect = [&] {
-    return CollectEvidence(keyframes, index, segments(), classes, options.evidence);
-  };
+  const auto collect = [&] { return CollectEvidence(seen, segments(), classes, options.evidence); };
   Evidence evidence = collect();
-  if (auto with_flat_things =
-          TakeOutFlatThings(cloud, index, segmentation, keyframes, evidence, classes)) {
+  if (auto with_flat_things = TakeOutFlatThings(cloud, segmentation, seen, evidence, classes)) {
     parted = std::move(with_flat_things);
     evidence = collect();
   }
   for (int round = 0; round < kMaxThingsInASegment - 1; ++round) {
-    auto further = SplitMixedSegments(cloud, index, segments(), keyframes, evidence, classes,
-                                      options.evidence);
+    auto further = SplitMixedSegments(cloud, segments(), seen, evidence, classes, options.evidence);
     if (!further) break;
     parted = std::move(further);
     evidence = collect();

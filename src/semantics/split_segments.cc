@@ -42,7 +42,7 @@ std::set<SegmentId> FindMixed(const Evidence& evidence) {
   return mixed;
 }
 
-void AddClaims(const LabelledKeyframe& keyframe,
+void AddClaims(const SeenKeyframe& keyframe,
                const KeyframeView& view,
                const Segmentation& segmentation,
                const ClassTable& classes,
@@ -204,18 +204,17 @@ std::map<SegmentId, std::vector<std::uint32_t>> PointsOf(
 }  // namespace
 
 std::optional<Segmentation> SplitMixedSegments(const MapCloud& cloud,
-                                               const VoxelIndex& index,
                                                const Segmentation& segmentation,
-                                               std::span<const LabelledKeyframe> keyframes,
+                                               std::span<const SeenKeyframe> keyframes,
                                                const Evidence& evidence,
                                                const ClassTable& classes,
                                                const EvidenceOptions& options) {
   std::map<SegmentId, Claims> claims_of;
   for (const SegmentId segment : FindMixed(evidence)) claims_of[segment];
   if (claims_of.empty()) return std::nullopt;
-  for (const LabelledKeyframe& keyframe : keyframes) {
-    const KeyframeView view = DrawSegments(keyframe, index, segmentation);
-    AddClaims(Usable(keyframe, classes), view, segmentation, classes, options, &claims_of);
+  for (const SeenKeyframe& keyframe : keyframes) {
+    const KeyframeView view = DrawSegments(keyframe, segmentation);
+    AddClaims(keyframe, view, segmentation, classes, options, &claims_of);
   }
   for (auto& [segment, claims] : claims_of) Sort(&claims);
   std::optional<Segmentation> result;

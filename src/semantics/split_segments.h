@@ -8,6 +8,8 @@
 #include "semslam/dense/map_cloud.h"
 #include "semslam/semantics/evidence.h"
 
+#include "semantics/keyframe_view.h"
+
 namespace semslam {
 
 // Parts segments that hold two things: those of which in a third of the keyframes that see them,
@@ -16,9 +18,8 @@ namespace semslam {
 // the other gets a new one, after all others. Nothing if there is no such segment; of three things
 // in one segment the first call parts one.
 std::optional<Segmentation> SplitMixedSegments(const MapCloud& cloud,
-                                               const VoxelIndex& index,
                                                const Segmentation& segmentation,
-                                               std::span<const LabelledKeyframe> keyframes,
+                                               std::span<const SeenKeyframe> keyframes,
                                                const Evidence& evidence,
                                                const ClassTable& classes,
                                                const EvidenceOptions& options);

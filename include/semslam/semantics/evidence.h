@@ -74,21 +74,4 @@ struct Evidence {
   std::map<SegmentPair, std::uint32_t> num_separate_boxes;
 };
 
-// What the detections of all keyframes say about the segments of the map. In every keyframe, each
-// box's foreground is what is connected in depth to the middle of the box and does not belong to a
-// large plane. A segment gets from a box
-//   alpha(c) += p_box(c) r z e,
-// r: share of its visible pixels inside the box, z: share of those that belong to the foreground,
-// e: less than 1 near the box's border; of several boxes in one keyframe the best counts for each
-// class. A segment that is seen well and is in no box gets evidence of being no object. Only
-// visible pixels count, so occluded views say nothing. Segments larger than any instance of the
-// class, and large planes, do not take the class.
-//
-// `index` finds the point of the map at a place, `segmentation` belongs to the same points.
-Evidence CollectEvidence(std::span<const LabelledKeyframe> keyframes,
-                         const VoxelIndex& index,
-                         const Segmentation& segmentation,
-                         const ClassTable& classes,
-                         const EvidenceOptions& options);
-
 }  // namespace semslam
