@@ -158,8 +158,7 @@ TEST_F(CloudIoTest, PclReadsThePlyFileWithAllItsColumns) {
   ASSERT_EQ(pcl::PLYReader().read(path_, raw), 0);
   std::string names;
   for (const auto& field : raw.fields) names += field.name + ' ';
-  EXPECT_EQ(names,
-            "x y z normal_x normal_y normal_z rgb label segment object confidence entropy ");
+  EXPECT_EQ(names, "x y z normal_x normal_y normal_z rgb label segment object confidence entropy ");
   pcl::PointCloud<pcl::PointXYZRGBL> cloud;
   pcl::fromPCLPointCloud2(raw, cloud);
   ASSERT_EQ(cloud.size(), sample_.positions.size());

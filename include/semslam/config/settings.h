@@ -28,9 +28,9 @@ struct DetectorSettings {
   std::vector<std::string> classes;  // Of interest; empty: all.
   double score_threshold = 0.25;
   double nms_threshold = 0.45;  // Overlap above which the weaker detection of a class is dropped.
-  int input_size = 0;  // Pixels; 0: as the network's file says, 640 if that leaves it open.
-  int batch_size = 1;  // Waiting keyframes that are looked at together.
-  bool letterbox = true;        // Images keep their proportions; else they are stretched.
+  int input_size = 0;     // Pixels; 0: as the network's file says, 640 if that leaves it open.
+  int batch_size = 1;     // Waiting keyframes that are looked at together.
+  bool letterbox = true;  // Images keep their proportions; else they are stretched.
   std::string backend = "opencv";  // What computes: see semantics/network_options.h.
   std::string target = "cpu";
 };
