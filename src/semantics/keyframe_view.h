@@ -23,7 +23,7 @@ struct SeenKeyframe {
 };
 inline constexpr std::uint32_t kNoPoint = 0xffffffff;
 
-// In the order of the keyframes, and in parallel.
+// In the order of the keyframes.
 std::vector<SeenKeyframe> FindSeenPoints(std::span<const LabelledKeyframe> keyframes,
                                          const VoxelIndex& index,
                                          const ClassTable& classes);

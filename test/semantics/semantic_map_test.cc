@@ -100,6 +100,7 @@ class Desk {
 
   Segmentation SegmentByGeometry() const {
     Segmentation segmentation;
+    segmentation.voxel_size = cloud_.voxel_size;
     std::vector<std::vector<Eigen::Vector3d>> points(boxes_.size());
     for (const Eigen::Vector3f& position : cloud_.positions) {
       const SegmentId segment = SegmentAt(position.cast<double>());
