@@ -146,6 +146,9 @@ std::size_t PositionOfDepth(const std::string& recording) {
 }
 
 TEST_F(RecordingTest, LeavesOutDamagedImagesAndSaysHowMany) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "OpenNI2's own thread crashes on such files when everything is slow";
+#endif
   VirtualCamera camera("");
   std::string content = recording();
   // More than an image of each kind takes.
