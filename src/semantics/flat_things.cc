@@ -280,13 +280,13 @@ std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
   if (subjects.empty()) return std::nullopt;
   std::optional<Segmentation> result;
   for (auto& [subject, votes] : CountVotes(cloud, segmentation, keyframes, subjects)) {
-    Votes left = votes;
-    while (const std::optional<Place> place = TakePlace(&left)) {
-      const Contents contents = ContentsOf(subject.first, cloud, result ? *result : segmentation);
+    Contents contents = ContentsOf(subject.first, cloud, result ? *result : segmentation);
+    while (const std::optional<Place> place = TakePlace(&votes)) {
       const std::vector<std::uint32_t> thing = FindThing(*place, contents, cloud);
       if (thing.size() < kMinPoints) continue;
       if (!result) result = segmentation;
       MakeSegment(thing, subject.first, cloud, &*result);
+      contents = ContentsOf(subject.first, cloud, *result);
     }
   }
   return result;

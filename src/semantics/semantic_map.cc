@@ -27,9 +27,8 @@ constexpr int kMaxThingsInASegment = 4;
 // Segments with one root are parts of one object.
 std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
                                         const MapCloud& cloud,
-                                        const VoxelIndex& index,
+                                        const SupportFinder& supports,
                                         const Segmentation& segmentation) {
-  const SupportFinder supports(cloud, index, segmentation);
   std::map<SegmentId, std::vector<SegmentId>> parts_of;  // By root.
   for (SegmentId segment = 1; segment <= labels.size(); ++segment) {
     const SegmentLabel& label = labels[segment - 1];
@@ -144,12 +143,13 @@ SemanticMap LabelMap(const MapCloud& cloud,
   SemanticMap map;
   map.classes = classes;
   map.segment_of_point = segmentation.segment_of_point;
-  map.objects = MakeObjects(labels, cloud, index, segmentation);
+  const SupportFinder supports(cloud, index, segmentation);
+  map.objects = MakeObjects(labels, cloud, supports, segmentation);
   const std::vector<SegmentPair> duplicates =
       FindDuplicates(map.objects, cloud, segmentation, evidence);
   if (!duplicates.empty()) {
     JoinObjects(duplicates, evidence, options, &labels);
-    map.objects = MakeObjects(labels, cloud, index, segmentation);
+    map.objects = MakeObjects(labels, cloud, supports, segmentation);
   }
   NumberObjects(previous, options.max_object_shift, map);
   const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());
