@@ -18,11 +18,14 @@
 #include "semslam/render/hash.h"
 #include "semslam/render/renderer.h"
 #include "semslam/render/scenes.h"
+#include "support/sanitized.h"
 
 namespace semslam {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr auto kManySeeds = static_cast<std::uint64_t>(testing::NumTrials(20));
 
 StagedScene Layout(const std::string& name, std::uint64_t seed) {
   return ParseScene(SceneText(name), name + ".yaml", seed);
@@ -89,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                          [](const auto& test) { return test.param; });
 
 TEST_P(BuiltInScene, LoadsWithManySeedsAndIsNotTooLarge) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kManySeeds; ++seed) {
     const StagedScene staged = Layout(GetParam(), seed);
     std::size_t num_triangles = 0;
     for (const ScenePart& part : staged.scene.parts()) num_triangles += part.mesh.triangles.size();
@@ -99,7 +102,7 @@ TEST_P(BuiltInScene, LoadsWithManySeedsAndIsNotTooLarge) {
 }
 
 TEST_P(BuiltInScene, TheCameraKeepsAwayFromEverything) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kManySeeds; ++seed) {
     const StagedScene staged = Layout(GetParam(), seed);
     for (double time = 0; time < staged.path.duration(); time += 0.25) {
       const Vector3d eye = staged.path.At(time).translation;
@@ -153,7 +156,7 @@ const Instance& FirstOf(const StagedScene& staged, const std::string& class_name
 }
 
 TEST(RandomDesk, EverythingStandsOnTheDesk) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kManySeeds; ++seed) {
     const StagedScene staged = Layout("random", seed);
     const OrientedBox& desk = FirstOf(staged, "desk").box;
     const double top = desk.T_world_box.translation.z() + desk.half_size.z();
@@ -168,7 +171,7 @@ TEST(RandomDesk, EverythingStandsOnTheDesk) {
 }
 
 TEST(RandomDesk, NoTwoThingsOverlap) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kManySeeds; ++seed) {
     const std::vector<Instance> things = ThingsOnTheDesk(Layout("random", seed));
     for (std::size_t i = 0; i < things.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
@@ -184,7 +187,7 @@ TEST(RandomDesk, NoTwoThingsOverlap) {
 
 TEST(RandomDesk, HasWhatADetectorIsTrainedOn) {
   std::map<std::string, int> counts;
-  constexpr int kSeeds = 40;
+  constexpr int kSeeds = testing::NumTrials(40);
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     for (const Instance& thing : ThingsOnTheDesk(Layout("random", seed)))
       ++counts[thing.class_name];

@@ -13,6 +13,7 @@
 #include "semslam/base/error.h"
 #include "semslam/base/random.h"
 #include "semslam/render/scenes.h"
+#include "support/sanitized.h"
 
 namespace semslam {
 namespace {
@@ -67,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(All,
 TEST_P(DamagedScene, IsASceneOrAnInputError) {
   Random random(17);
   int num_errors = 0;
-  constexpr int kTrials = 150;
+  constexpr int kTrials = testing::NumTrials(150);
   for (int i = 0; i < kTrials; ++i) {
     std::string text = SceneText(GetParam());
     const std::size_t num_damages = 1 + Below(random, 4);

@@ -10,8 +10,7 @@ namespace semslam::testing {
 // semslam::render.
 //
 //   RenderedClip clip(DeskClipOptions(30));
-//   while (std::optional<RgbdImage> image = clip.Next()) ...   // clip.T_world_camera(i) is the
-//   truth.
+//   while (std::optional<RgbdImage> image = clip.Next()) ...  // clip.T_world_camera(i): the truth.
 inline RenderedClip::Options DeskClipOptions(int num_frames) {
   return {.scene = "desk", .num_frames = num_frames};
 }
