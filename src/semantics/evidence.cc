@@ -191,12 +191,20 @@ class KeyframeJudge {
     }
   }
 
+  // Detectors overlook what is small in the image: one that found nothing there says little.
+  double ChanceToBeDetected(SegmentId segment) const {
+    const double stride = keyframe_.cloud->stride();
+    const double side_px = stride * std::sqrt(double(view_.visibility[segment].num_pixels));
+    return std::min(1.0, side_px / (options_.sure_size * keyframe_.cloud->image_width()));
+  }
+
   void AddBackground(Evidence& evidence) const {
     constexpr double kInNoBox = 0.2;  // Share of the segment inside the best box.
     for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (largest_inside_share_[segment] >= kInNoBox) continue;
       if (!IsSeen(segment, options_.min_visible_share_background)) continue;
-      evidence.segments[segment - 1].background += ToUnits(options_.background_weight);
+      evidence.segments[segment - 1].background +=
+          ToUnits(options_.background_weight * ChanceToBeDetected(segment));
     }
   }
 
@@ -238,6 +246,7 @@ void EvidenceOptions::Validate() const {
   require(max_depth_step > 0 && depth_step_at_1m >= 0, "expected max_depth_step > 0");
   require(max_hole >= 0 && max_hole <= 100, "expected 0 <= max_hole <= 100");
   require(background_weight >= 0, "expected background_weight >= 0");
+  require(sure_size > 0, "expected sure_size > 0");
 }
 
 Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,

@@ -23,8 +23,9 @@
 namespace semslam {
 namespace {
 
-constexpr float kCellSize = 0.02F;      // Metres; votes are counted by cells of that size.
-constexpr std::uint32_t kMinVotes = 3;  // Keyframes whose box holds a cell.
+constexpr float kCellSize = 0.02F;             // Metres; votes are counted by cells of that size.
+constexpr std::uint32_t kMinVotes = 3;         // Keyframes whose box holds a cell.
+constexpr std::uint32_t kMinVotesInReach = 2;  // One box alone may be wrong.
 constexpr double kMinShareOfVotesInReach = 0.25;
 constexpr double kMinShareOfVotes = 0.5;   // Of the most voted cell of the same thing.
 constexpr double kMinHeight = 0.006;       // Metres above the surface around,
@@ -117,7 +118,8 @@ std::optional<Place> TakePlace(Votes* votes) {
   if (best == votes->end() || best->second < kMinVotes) return std::nullopt;
   const double min_votes =
       std::max<double>(kMinVotes, kMinShareOfVotes * static_cast<double>(best->second));
-  const double min_reach = kMinShareOfVotesInReach * static_cast<double>(best->second);
+  const double min_reach = std::max<double>(
+      kMinVotesInReach, kMinShareOfVotesInReach * static_cast<double>(best->second));
   Place place;
   place.core =
       Flood(best->first, *votes, [&](std::uint32_t, std::uint32_t to) { return to >= min_votes; });
