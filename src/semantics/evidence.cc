@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
+#include "semslam/base/parallel.h"
 
 #include "semantics/box_claims.h"
 #include "semantics/box_foreground.h"
@@ -260,9 +262,13 @@ Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,
   nothing.part_alpha.assign(classes.size(), 0);
   nothing.num_views.assign(classes.size(), 0);
   evidence.segments.assign(segmentation.segments.size(), nothing);
-  for (const SeenKeyframe& keyframe : keyframes) {
-    KeyframeJudge(keyframe, segmentation, classes, options).AddTo(evidence);
-  }
+  std::vector<std::optional<KeyframeJudge>> judges(keyframes.size());
+  ParallelFor(keyframes.size(), 1, 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      judges[i].emplace(keyframes[i], segmentation, classes, options);
+    }
+  });
+  for (const std::optional<KeyframeJudge>& judge : judges) judge->AddTo(evidence);
   return evidence;
 }
 

@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "semslam/base/random.h"
+#include "semslam/dense/voxel_index.h"
 #include "semslam/geometry/plane.h"
 
 #include "semantics/keyframe_view.h"
@@ -176,8 +178,14 @@ double MedianDeviation(const std::vector<Eigen::Vector3f>& points, const Plane& 
   return *middle;
 }
 
-// One segment's points by cell.
-using Contents = std::map<Cell, std::vector<std::uint32_t>>;
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    return VoxelKey::Hash(VoxelKey::Pack({cell[0], cell[1], cell[2]}));
+  }
+};
+
+// One segment's points by cell; never visited in the table's order.
+using Contents = std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash>;
 
 Contents ContentsOf(SegmentId segment, const MapCloud& cloud, const Segmentation& segmentation) {
   Contents contents;
@@ -186,6 +194,19 @@ Contents ContentsOf(SegmentId segment, const MapCloud& cloud, const Segmentation
     contents[CellOf(cloud.positions[i])].push_back(static_cast<std::uint32_t>(i));
   }
   return contents;
+}
+
+// `points`: ascending.
+void TakeOut(const std::vector<std::uint32_t>& points, const MapCloud& cloud, Contents* contents) {
+  std::set<Cell> cells;
+  for (const std::uint32_t point : points) cells.insert(CellOf(cloud.positions[point]));
+  for (const Cell& cell : cells) {
+    const auto content = contents->find(cell);
+    std::erase_if(content->second, [&](std::uint32_t point) {
+      return std::binary_search(points.begin(), points.end(), point);
+    });
+    if (content->second.empty()) contents->erase(content);
+  }
 }
 
 std::vector<std::uint32_t> PointsIn(const std::set<Cell>& cells, const Contents& contents) {
@@ -281,14 +302,17 @@ std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
   }
   if (subjects.empty()) return std::nullopt;
   std::optional<Segmentation> result;
+  std::map<SegmentId, Contents> contents_of;
   for (auto& [subject, votes] : CountVotes(cloud, segmentation, keyframes, subjects)) {
-    Contents contents = ContentsOf(subject.first, cloud, result ? *result : segmentation);
+    const auto [entry, is_new] = contents_of.try_emplace(subject.first);
+    Contents& contents = entry->second;
+    if (is_new) contents = ContentsOf(subject.first, cloud, segmentation);
     while (const std::optional<Place> place = TakePlace(&votes)) {
       const std::vector<std::uint32_t> thing = FindThing(*place, contents, cloud);
       if (thing.size() < kMinPoints) continue;
       if (!result) result = segmentation;
       MakeSegment(thing, subject.first, cloud, &*result);
-      contents = ContentsOf(subject.first, cloud, *result);
+      TakeOut(thing, cloud, &contents);
     }
   }
   return result;
