@@ -19,6 +19,7 @@
 #include "semslam/dense/voxel_index.h"
 #include "semslam/geometry/plane.h"
 
+#include "semantics/evenly_chosen.h"
 #include "semantics/keyframe_view.h"
 #include "semantics/segment_parts.h"
 
@@ -268,6 +269,7 @@ std::vector<std::uint32_t> FindThing(const Place& place,
                                      const Contents& contents,
                                      const MapCloud& cloud) {
   constexpr int kReachOfSurface = 5;  // Cells around a place.
+  constexpr std::size_t kMaxPointsOfSurface = 2000;
   const std::vector<std::uint32_t> inside = PointsIn(place.core, contents);
   std::vector<Eigen::Vector3f> around;
   for (const std::uint32_t point :
@@ -275,7 +277,8 @@ std::vector<std::uint32_t> FindThing(const Place& place,
     around.push_back(cloud.positions[point]);
   Eigen::Vector3d towards_viewer = Eigen::Vector3d::Zero();
   for (const std::uint32_t point : inside) towards_viewer += cloud.normals[point].cast<double>();
-  const std::optional<Plane> surface = FindSurface(around, towards_viewer);
+  const std::optional<Plane> surface =
+      FindSurface(EvenlyChosen(around, kMaxPointsOfSurface), towards_viewer);
   if (!surface) return {};
   const double min_height =
       std::max(kMinHeight, kMinHeightInNoise * MedianDeviation(around, *surface));
