@@ -3,12 +3,29 @@
 #include "semslam/dense/voxel_index.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 
 #include "semslam/base/check.h"
 
 namespace semslam {
+namespace {
+
+constexpr int kBlockBits = 2;  // Side of a block: 4 voxels.
+constexpr int kBlockMask = (1 << kBlockBits) - 1;
+
+Eigen::Vector3i BlockOf(const Eigen::Vector3i& voxel) {
+  return {voxel.x() >> kBlockBits, voxel.y() >> kBlockBits, voxel.z() >> kBlockBits};
+}
+
+int BitOf(const Eigen::Vector3i& voxel) {
+  return (voxel.x() & kBlockMask) << (2 * kBlockBits) | (voxel.y() & kBlockMask) << kBlockBits |
+         (voxel.z() & kBlockMask);
+}
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace
 
 std::optional<Eigen::Vector3i> VoxelKey::Coordinates(const Eigen::Vector3d& p_world,
                                                      double voxel_size) {
@@ -19,57 +36,106 @@ std::optional<Eigen::Vector3i> VoxelKey::Coordinates(const Eigen::Vector3d& p_wo
 }
 
 VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_size)
-    : voxel_size_(voxel_size), positions_(positions.begin(), positions.end()) {
+    : voxel_size_(voxel_size) {
   SEMSLAM_CHECK(voxel_size > 0) << "voxel_size = " << voxel_size;
-  SEMSLAM_CHECK(positions.size() < std::numeric_limits<std::uint32_t>::max());
-  std::size_t num_slots = 16;
-  while (num_slots < positions.size() * 2) num_slots *= 2;
-  slots_.assign(num_slots, 0);
-  entries_.reserve(positions.size());
+  SEMSLAM_CHECK(positions.size() < kNone);
+  struct Place {
+    std::uint32_t block = kNone;
+    int bit = 0;
+  };
+  std::vector<Place> places(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto voxel = VoxelKey::Coordinates(positions[i].cast<double>(), voxel_size);
     if (!voxel) continue;
-    const std::uint64_t key = VoxelKey::Pack(*voxel);
-    std::size_t slot = VoxelKey::Hash(key) & (num_slots - 1);
-    while (slots_[slot] != 0 && entries_[slots_[slot] - 1].key != key) {
-      slot = (slot + 1) & (num_slots - 1);
-    }
-    if (slots_[slot] != 0) continue;
-    entries_.push_back({key, static_cast<std::uint32_t>(i)});
-    slots_[slot] = static_cast<std::uint32_t>(entries_.size());
+    places[i] = {FindOrAddBlock(BlockOf(*voxel)), BitOf(*voxel)};
+    blocks_[places[i].block].is_occupied |= std::uint64_t{1} << places[i].bit;
+  }
+  std::uint32_t num_points = 0;
+  for (Block& block : blocks_) {
+    block.first = num_points;
+    num_points += static_cast<std::uint32_t>(std::popcount(block.is_occupied));
+  }
+  points_.assign(num_points, {Eigen::Vector3f::Zero(), kNone});
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (places[i].block == kNone) continue;
+    Point& point = points_[RankOf(blocks_[places[i].block], places[i].bit)];
+    if (point.index == kNone) point = {positions[i], static_cast<std::uint32_t>(i)};
+  }
+}
+
+std::uint32_t VoxelIndex::FindOrAddBlock(const Eigen::Vector3i& block) {
+  if (slots_.size() < 2 * (blocks_.size() + 1)) GrowSlots();
+  const std::uint64_t key = VoxelKey::Pack(block);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = VoxelKey::Hash(key) & mask;
+  for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
+    if (blocks_[slots_[slot] - 1].key == key) return slots_[slot] - 1;
+  }
+  blocks_.push_back({key, 0, 0});
+  slots_[slot] = static_cast<std::uint32_t>(blocks_.size());
+  return slots_[slot] - 1;
+}
+
+void VoxelIndex::GrowSlots() {
+  slots_.assign(std::max<std::size_t>(slots_.size() * 2, 16), 0);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    std::size_t slot = VoxelKey::Hash(blocks_[i].key) & mask;
+    while (slots_[slot] != 0) slot = (slot + 1) & mask;
+    slots_[slot] = static_cast<std::uint32_t>(i + 1);
   }
 }
 
 std::optional<std::uint32_t> VoxelIndex::Find(const Eigen::Vector3d& p_world) const {
-  if (entries_.empty()) return std::nullopt;
+  if (blocks_.empty()) return std::nullopt;
   const auto voxel = VoxelKey::Coordinates(p_world, voxel_size_);
   if (!voxel) return std::nullopt;
-  if (const auto index = FindKey(VoxelKey::Pack(*voxel))) return index;
+  if (const Block* block = FindBlock(BlockOf(*voxel))) {
+    if (const Point* point = FindPoint(*block, BitOf(*voxel))) return point->index;
+  }
   return FindNear(p_world, *voxel);
 }
 
-std::optional<std::uint32_t> VoxelIndex::FindKey(std::uint64_t key) const {
+const VoxelIndex::Block* VoxelIndex::FindBlock(const Eigen::Vector3i& block) const {
+  const std::uint64_t key = VoxelKey::Pack(block);
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t slot = VoxelKey::Hash(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
-    const Entry& entry = entries_[slots_[slot] - 1];
-    if (entry.key == key) return entry.index;
+    const Block& candidate = blocks_[slots_[slot] - 1];
+    if (candidate.key == key) return &candidate;
   }
-  return std::nullopt;
+  return nullptr;
+}
+
+std::size_t VoxelIndex::RankOf(const Block& block, int bit) {
+  const std::uint64_t before = block.is_occupied & ((std::uint64_t{1} << bit) - 1);
+  return block.first + static_cast<std::size_t>(std::popcount(before));
+}
+
+const VoxelIndex::Point* VoxelIndex::FindPoint(const Block& block, int bit) const {
+  const bool is_occupied = (block.is_occupied >> bit & 1) != 0;
+  return is_occupied ? &points_[RankOf(block, bit)] : nullptr;
 }
 
 std::optional<std::uint32_t> VoxelIndex::FindNear(const Eigen::Vector3d& p_world,
                                                   const Eigen::Vector3i& voxel) const {
   std::optional<std::uint32_t> nearest;
   double nearest_distance = std::numeric_limits<double>::infinity();
+  const Block* block = nullptr;
+  std::optional<Eigen::Vector3i> last;  // Whose block that is.
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
-        const auto index = FindKey(VoxelKey::Pack(voxel + Eigen::Vector3i(x, y, z)));
-        if (!index) continue;
-        const double distance = (positions_[*index].cast<double>() - p_world).squaredNorm();
+        const Eigen::Vector3i neighbour = voxel + Eigen::Vector3i(x, y, z);
+        if (const Eigen::Vector3i at = BlockOf(neighbour); at != last) {
+          block = FindBlock(at);
+          last = at;
+        }
+        const Point* point = block != nullptr ? FindPoint(*block, BitOf(neighbour)) : nullptr;
+        if (point == nullptr) continue;
+        const double distance = (point->p_world.cast<double>() - p_world).squaredNorm();
         if (distance < nearest_distance) {
           nearest_distance = distance;
-          nearest = index;
+          nearest = point->index;
         }
       }
     }

@@ -14,6 +14,7 @@
 
 #include "segmentation/disjoint_sets.h"
 #include "segmentation/surface_growth.h"
+#include "segmentation/thing_parts.h"
 
 namespace semslam {
 namespace {
@@ -85,13 +86,6 @@ void JoinAcrossBorders(const PatchGraph& graph,
   }
 }
 
-// By representative.
-std::vector<double> AreasOf(const PatchGraph& graph, DisjointSets& sets) {
-  std::vector<double> areas(graph.patches.size(), 0.0);
-  for (std::uint32_t i = 0; i < areas.size(); ++i) areas[sets.Find(i)] += graph.patches[i].area;
-  return areas;
-}
-
 // Distance between the nearest centroids of two sets of patches.
 double GapBetween(const PatchGraph& graph,
                   const std::vector<std::uint32_t>& a,
@@ -142,46 +136,6 @@ void JoinAcrossGaps(const PatchGraph& graph,
       sets.Join(first, second);
       is_structural[first] = is_structural[second] = true;
     }
-  }
-}
-
-// What a fragment shares with the neighbour it shares most with.
-struct Attachment {
-  std::uint32_t neighbour = kNoComponent;
-  std::uint32_t num_contacts = 0;
-
-  void Offer(std::uint32_t other, std::uint32_t contacts) {
-    if (contacts <= num_contacts) return;  // Of equals the first.
-    neighbour = other;
-    num_contacts = contacts;
-  }
-};
-
-// Parts of things that are too small to be one join the neighbouring thing they touch most. All of
-// a round join at once, so that their order has no effect.
-void JoinFragments(const PatchGraph& graph,
-                   const std::vector<bool>& is_structural,
-                   double min_area,
-                   DisjointSets& sets) {
-  for (bool has_changed = true; has_changed;) {
-    const std::vector<double> areas = AreasOf(graph, sets);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> borders;
-    for (const PatchEdge& edge : graph.edges) {
-      const std::uint32_t a = sets.Find(edge.a);
-      const std::uint32_t b = sets.Find(edge.b);
-      if (a == b || is_structural[a] || is_structural[b]) continue;
-      borders[std::minmax(a, b)] += edge.num_contacts;
-    }
-    std::map<std::uint32_t, Attachment> attachments;
-    for (const auto& [pair, num_contacts] : borders) {
-      const auto [a, b] = pair;
-      if (areas[a] < min_area) attachments[a].Offer(b, num_contacts);
-      if (areas[b] < min_area) attachments[b].Offer(a, num_contacts);
-    }
-    for (const auto& [fragment, attachment] : attachments) {
-      sets.Join(fragment, attachment.neighbour);
-    }
-    has_changed = !attachments.empty();
   }
 }
 
@@ -270,7 +224,7 @@ Components FindComponents(const PatchGraph& graph,
       graph, [&](std::uint32_t a, std::uint32_t b) { return is_structural[a] && is_structural[b]; },
       [&](const Patch& a, const Patch& b) { return IsFlush(a, b, options); }, sets);
   JoinAcrossGaps(graph, plane_labels, options, sets, is_structural);
-  JoinFragments(graph, is_structural, options.min_thing_area, sets);
+  JoinThingParts(graph, is_structural, options, sets);
   return Collect(graph, plane_labels, is_structural, options, sets);
 }
 

@@ -81,6 +81,8 @@ void Check(const ComponentOptions& options) {
   RequireNotNegative("components.step_tolerance", options.step_tolerance);
   RequireNotNegative("components.min_structural_area", options.min_structural_area);
   RequireNotNegative("components.min_thing_area", options.min_thing_area);
+  RequireNotNegative("components.max_part_gap", options.max_part_gap);
+  RequireNotNegative("components.min_resting_share", options.min_resting_share);
   RequireNotNegative("components.min_area", options.min_area);
   RequireNotNegative("components.min_piece_area", options.min_piece_area);
   RequireNotNegative("components.max_gap", options.max_gap);

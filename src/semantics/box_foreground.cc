@@ -42,9 +42,10 @@ DepthRange FindCoreDepth(std::vector<float>& depths) {
   return {};
 }
 
-using Patch = std::vector<std::pair<int, int>>;  // Columns and rows of cells joined in depth.
+using Cells = std::vector<std::pair<int, int>>;  // Columns and rows.
 
-// Of the largest patch: a smaller one is something else at about the same distance.
+// Of the largest patch, cells joined in depth: a smaller one is something else at about the same
+// distance.
 constexpr double kMinPatch = 0.4;
 
 // Grows the foreground from the middle of a box.
@@ -58,19 +59,24 @@ class Grower {
         box_(box),
         is_barrier_(is_barrier),
         options_(options),
-        is_reached_(static_cast<std::size_t>(box.last_column - box.first_column) *
-                    static_cast<std::size_t>(box.last_row - box.first_row)) {}
+        patch_of_(static_cast<std::size_t>(box.last_column - box.first_column) *
+                  static_cast<std::size_t>(box.last_row - box.first_row)) {}
 
+  // Ascending.
   std::vector<std::size_t> Grow() {
+    const std::vector<std::size_t> sizes = GrowPatches();
+    if (sizes.empty()) return {};
+    const auto largest = static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
     std::vector<std::size_t> cells;
-    const std::vector<Patch> patches = GrowPatches();
-    std::size_t largest = 0;
-    for (const Patch& patch : patches) largest = std::max(largest, patch.size());
-    for (const Patch& patch : patches) {
-      if (static_cast<double>(patch.size()) < kMinPatch * static_cast<double>(largest)) continue;
-      for (const auto& [column, row] : patch) cells.push_back(image_.Cell(column, row));
+    for (int row = box_.first_row; row < box_.last_row; ++row) {
+      for (int column = box_.first_column; column < box_.last_column; ++column) {
+        const std::uint32_t patch = patch_of_[Local(column, row)];
+        if (patch == 0) continue;
+        if (static_cast<double>(sizes[patch - 1]) >= kMinPatch * largest) {
+          cells.push_back(image_.Cell(column, row));
+        }
+      }
     }
-    std::sort(cells.begin(), cells.end());
     return cells;
   }
 
@@ -79,20 +85,25 @@ class Grower {
     return image_.depth[cell] > 0 && !is_barrier_[image_.segments[cell]];
   }
 
-  void Reach(int column, int row) {
+  std::size_t Local(int column, int row) const {
     const auto width = static_cast<std::size_t>(box_.last_column - box_.first_column);
-    const std::size_t local = static_cast<std::size_t>(row - box_.first_row) * width +
-                              static_cast<std::size_t>(column - box_.first_column);
-    if (is_reached_[local]) return;
-    is_reached_[local] = true;
+    return static_cast<std::size_t>(row - box_.first_row) * width +
+           static_cast<std::size_t>(column - box_.first_column);
+  }
+
+  void Reach(int column, int row) {
+    std::uint32_t& patch = patch_of_[Local(column, row)];
+    if (patch != 0) return;
+    patch = growing_;
     reached_.emplace_back(column, row);
   }
 
-  // One from each seed that no other patch has reached.
-  std::vector<Patch> GrowPatches() {
-    std::vector<Patch> patches;
+  // One from each seed that no other patch has reached; their sizes.
+  std::vector<std::size_t> GrowPatches() {
+    std::vector<std::size_t> sizes;
     for (const auto& [column, row] : Seeds()) {
       reached_.clear();
+      growing_ = static_cast<std::uint32_t>(sizes.size()) + 1;
       Reach(column, row);
       for (std::size_t next = 0; next < reached_.size(); ++next) {
         const auto [x, y] = reached_[next];
@@ -101,12 +112,12 @@ class Grower {
         Spread(x, y, 0, 1);
         Spread(x, y, 0, -1);
       }
-      if (!reached_.empty()) patches.push_back(reached_);
+      if (!reached_.empty()) sizes.push_back(reached_.size());
     }
-    return patches;
+    return sizes;
   }
 
-  Patch Seeds() const {
+  Cells Seeds() const {
     const CellRange middle = box_.Middle(options_.core_share);
     std::vector<float> depths;
     const auto for_each = [&](const auto& visit) {
@@ -118,7 +129,7 @@ class Grower {
       }
     };
     for_each([&](int, int, float z) { depths.push_back(z); });
-    Patch seeds;
+    Cells seeds;
     if (depths.empty()) return seeds;
     const DepthRange core = FindCoreDepth(depths);
     for_each([&](int column, int row, float z) {
@@ -149,8 +160,9 @@ class Grower {
   const CellRange box_;
   const std::vector<bool>& is_barrier_;
   const EvidenceOptions& options_;
-  std::vector<bool> is_reached_;  // Within the box.
-  Patch reached_;                 // Of the patch that is growing.
+  std::vector<std::uint32_t> patch_of_;  // By cell within the box; 0: not reached.
+  std::uint32_t growing_ = 0;            // The patch that is growing,
+  Cells reached_;                        // and its cells.
 };
 
 }  // namespace

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
+#include "semslam/base/parallel.h"
 
 #include "semantics/box_claims.h"
 #include "semantics/box_foreground.h"
@@ -191,12 +193,20 @@ class KeyframeJudge {
     }
   }
 
+  // Detectors overlook what is small in the image: one that found nothing there says little.
+  double ChanceToBeDetected(SegmentId segment) const {
+    const double stride = keyframe_.cloud->stride();
+    const double side_px = stride * std::sqrt(double(view_.visibility[segment].num_pixels));
+    return std::min(1.0, side_px / (options_.sure_size * keyframe_.cloud->image_width()));
+  }
+
   void AddBackground(Evidence& evidence) const {
     constexpr double kInNoBox = 0.2;  // Share of the segment inside the best box.
     for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (largest_inside_share_[segment] >= kInNoBox) continue;
       if (!IsSeen(segment, options_.min_visible_share_background)) continue;
-      evidence.segments[segment - 1].background += ToUnits(options_.background_weight);
+      evidence.segments[segment - 1].background +=
+          ToUnits(options_.background_weight * ChanceToBeDetected(segment));
     }
   }
 
@@ -238,6 +248,7 @@ void EvidenceOptions::Validate() const {
   require(max_depth_step > 0 && depth_step_at_1m >= 0, "expected max_depth_step > 0");
   require(max_hole >= 0 && max_hole <= 100, "expected 0 <= max_hole <= 100");
   require(background_weight >= 0, "expected background_weight >= 0");
+  require(sure_size > 0, "expected sure_size > 0");
 }
 
 Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,
@@ -251,9 +262,13 @@ Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,
   nothing.part_alpha.assign(classes.size(), 0);
   nothing.num_views.assign(classes.size(), 0);
   evidence.segments.assign(segmentation.segments.size(), nothing);
-  for (const SeenKeyframe& keyframe : keyframes) {
-    KeyframeJudge(keyframe, segmentation, classes, options).AddTo(evidence);
-  }
+  std::vector<std::optional<KeyframeJudge>> judges(keyframes.size());
+  ParallelFor(keyframes.size(), 1, 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      judges[i].emplace(keyframes[i], segmentation, classes, options);
+    }
+  });
+  for (const std::optional<KeyframeJudge>& judge : judges) judge->AddTo(evidence);
   return evidence;
 }
 

@@ -9,22 +9,26 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "semslam/base/random.h"
+#include "semslam/dense/voxel_index.h"
 #include "semslam/geometry/plane.h"
 
+#include "semantics/evenly_chosen.h"
 #include "semantics/keyframe_view.h"
 #include "semantics/segment_parts.h"
 
 namespace semslam {
 namespace {
 
-constexpr float kCellSize = 0.02F;      // Metres; votes are counted by cells of that size.
-constexpr std::uint32_t kMinVotes = 3;  // Keyframes whose box holds a cell.
+constexpr float kCellSize = 0.02F;             // Metres; votes are counted by cells of that size.
+constexpr std::uint32_t kMinVotes = 3;         // Keyframes whose box holds a cell.
+constexpr std::uint32_t kMinVotesInReach = 2;  // One box alone may be wrong.
 constexpr double kMinShareOfVotesInReach = 0.25;
 constexpr double kMinShareOfVotes = 0.5;   // Of the most voted cell of the same thing.
 constexpr double kMinHeight = 0.006;       // Metres above the surface around,
@@ -117,7 +121,8 @@ std::optional<Place> TakePlace(Votes* votes) {
   if (best == votes->end() || best->second < kMinVotes) return std::nullopt;
   const double min_votes =
       std::max<double>(kMinVotes, kMinShareOfVotes * static_cast<double>(best->second));
-  const double min_reach = kMinShareOfVotesInReach * static_cast<double>(best->second);
+  const double min_reach = std::max<double>(
+      kMinVotesInReach, kMinShareOfVotesInReach * static_cast<double>(best->second));
   Place place;
   place.core =
       Flood(best->first, *votes, [&](std::uint32_t, std::uint32_t to) { return to >= min_votes; });
@@ -174,8 +179,14 @@ double MedianDeviation(const std::vector<Eigen::Vector3f>& points, const Plane& 
   return *middle;
 }
 
-// One segment's points by cell.
-using Contents = std::map<Cell, std::vector<std::uint32_t>>;
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    return VoxelKey::Hash(VoxelKey::Pack({cell[0], cell[1], cell[2]}));
+  }
+};
+
+// One segment's points by cell; never visited in the table's order.
+using Contents = std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash>;
 
 Contents ContentsOf(SegmentId segment, const MapCloud& cloud, const Segmentation& segmentation) {
   Contents contents;
@@ -184,6 +195,19 @@ Contents ContentsOf(SegmentId segment, const MapCloud& cloud, const Segmentation
     contents[CellOf(cloud.positions[i])].push_back(static_cast<std::uint32_t>(i));
   }
   return contents;
+}
+
+// `points`: ascending.
+void TakeOut(const std::vector<std::uint32_t>& points, const MapCloud& cloud, Contents* contents) {
+  std::set<Cell> cells;
+  for (const std::uint32_t point : points) cells.insert(CellOf(cloud.positions[point]));
+  for (const Cell& cell : cells) {
+    const auto content = contents->find(cell);
+    std::erase_if(content->second, [&](std::uint32_t point) {
+      return std::binary_search(points.begin(), points.end(), point);
+    });
+    if (content->second.empty()) contents->erase(content);
+  }
 }
 
 std::vector<std::uint32_t> PointsIn(const std::set<Cell>& cells, const Contents& contents) {
@@ -245,6 +269,7 @@ std::vector<std::uint32_t> FindThing(const Place& place,
                                      const Contents& contents,
                                      const MapCloud& cloud) {
   constexpr int kReachOfSurface = 5;  // Cells around a place.
+  constexpr std::size_t kMaxPointsOfSurface = 2000;
   const std::vector<std::uint32_t> inside = PointsIn(place.core, contents);
   std::vector<Eigen::Vector3f> around;
   for (const std::uint32_t point :
@@ -252,7 +277,8 @@ std::vector<std::uint32_t> FindThing(const Place& place,
     around.push_back(cloud.positions[point]);
   Eigen::Vector3d towards_viewer = Eigen::Vector3d::Zero();
   for (const std::uint32_t point : inside) towards_viewer += cloud.normals[point].cast<double>();
-  const std::optional<Plane> surface = FindSurface(around, towards_viewer);
+  const std::optional<Plane> surface =
+      FindSurface(EvenlyChosen(around, kMaxPointsOfSurface), towards_viewer);
   if (!surface) return {};
   const double min_height =
       std::max(kMinHeight, kMinHeightInNoise * MedianDeviation(around, *surface));
@@ -279,14 +305,17 @@ std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
   }
   if (subjects.empty()) return std::nullopt;
   std::optional<Segmentation> result;
+  std::map<SegmentId, Contents> contents_of;
   for (auto& [subject, votes] : CountVotes(cloud, segmentation, keyframes, subjects)) {
-    Contents contents = ContentsOf(subject.first, cloud, result ? *result : segmentation);
+    const auto [entry, is_new] = contents_of.try_emplace(subject.first);
+    Contents& contents = entry->second;
+    if (is_new) contents = ContentsOf(subject.first, cloud, segmentation);
     while (const std::optional<Place> place = TakePlace(&votes)) {
       const std::vector<std::uint32_t> thing = FindThing(*place, contents, cloud);
       if (thing.size() < kMinPoints) continue;
       if (!result) result = segmentation;
       MakeSegment(thing, subject.first, cloud, &*result);
-      contents = ContentsOf(subject.first, cloud, *result);
+      TakeOut(thing, cloud, &contents);
     }
   }
   return result;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "semslam/base/check.h"
+#include "semslam/base/parallel.h"
 
 namespace semslam {
 namespace {
@@ -47,11 +48,12 @@ SeenKeyframe FindSeenPoints(const LabelledKeyframe& keyframe,
 std::vector<SeenKeyframe> FindSeenPoints(std::span<const LabelledKeyframe> keyframes,
                                          const VoxelIndex& index,
                                          const ClassTable& classes) {
-  std::vector<SeenKeyframe> seen;
-  seen.reserve(keyframes.size());
-  for (const LabelledKeyframe& keyframe : keyframes) {
-    seen.push_back(FindSeenPoints(keyframe, index, classes));
-  }
+  std::vector<SeenKeyframe> seen(keyframes.size());
+  ParallelFor(keyframes.size(), 1, 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      seen[i] = FindSeenPoints(keyframes[i], index, classes);
+    }
+  });
   return seen;
 }
 

@@ -13,6 +13,8 @@
 
 #include "semslam/base/random.h"
 
+#include "semantics/evenly_chosen.h"
+
 namespace semslam {
 namespace {
 
@@ -73,14 +75,6 @@ double ArcOf(const Circle& circle, std::span<const Eigen::Vector2d> points) {
          static_cast<double>(std::count(has_points.begin(), has_points.end(), true));
 }
 
-std::vector<Eigen::Vector2d> SomeOf(std::span<const Eigen::Vector2d> points) {
-  constexpr std::size_t kMaxPoints = 500;
-  const std::size_t step = 1 + points.size() / kMaxPoints;
-  std::vector<Eigen::Vector2d> some;
-  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
-  return some;
-}
-
 // By random triples; the same for the same points.
 std::optional<Circle> BestOfTrials(std::span<const Eigen::Vector2d> points) {
   Random random(1);
@@ -104,7 +98,8 @@ std::optional<Circle> BestOfTrials(std::span<const Eigen::Vector2d> points) {
 
 std::optional<Circle> FindRoundFootprint(std::span<const Eigen::Vector2d> points) {
   if (points.size() < kMinPoints) return std::nullopt;
-  std::optional<Circle> circle = BestOfTrials(SomeOf(points));
+  constexpr std::size_t kMaxTried = 500;
+  std::optional<Circle> circle = BestOfTrials(EvenlyChosen(points, kMaxTried));
   for (int i = 0; i < 2 && circle; ++i) circle = FitCircle(PointsOn(*circle, points));
   if (!IsPlausible(circle)) return std::nullopt;
   const std::vector<Eigen::Vector2d> on = PointsOn(*circle, points);

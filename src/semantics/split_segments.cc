@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "semantics/box_claims.h"
+#include "semantics/evenly_chosen.h"
 #include "semantics/segment_parts.h"
 
 namespace semslam {
@@ -165,13 +166,11 @@ class Parting {
   static void GiveToTheNearest(const std::vector<std::uint32_t>& open,
                                const MapCloud& cloud,
                                std::array<std::vector<std::uint32_t>, 2>* parts) {
-    constexpr std::size_t kMaxAsked = 500;  // Points of a part; every n-th of more.
+    constexpr std::size_t kMaxAsked = 500;  // Points of a part.
     std::array<std::vector<Eigen::Vector3f>, 2> asked;
     for (std::size_t side = 0; side < 2; ++side) {
-      const std::vector<std::uint32_t>& part = (*parts)[side];
-      const std::size_t step = std::max<std::size_t>(1, part.size() / kMaxAsked);
-      for (std::size_t i = 0; i < part.size(); i += step) {
-        asked[side].push_back(cloud.positions[part[i]]);
+      for (const std::uint32_t point : EvenlyChosen((*parts)[side], kMaxAsked)) {
+        asked[side].push_back(cloud.positions[point]);
       }
     }
     for (const std::uint32_t point : open) {

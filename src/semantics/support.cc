@@ -10,6 +10,7 @@
 
 #include "semslam/dense/up_direction.h"
 
+#include "semantics/evenly_chosen.h"
 #include "semantics/round_footprint.h"
 
 namespace semslam {
@@ -40,10 +41,7 @@ std::vector<Eigen::Vector3d> LowPoints(std::span<const Eigen::Vector3d> points,
   std::vector<Eigen::Vector3d> low;
   std::copy_if(points.begin(), points.end(), std::back_inserter(low),
                [&](const Eigen::Vector3d& point) { return up.dot(point) <= highest; });
-  const std::size_t step = 1 + low.size() / kMaxPoints;
-  std::vector<Eigen::Vector3d> chosen;
-  for (std::size_t i = 0; i < low.size(); i += step) chosen.push_back(low[i]);
-  return chosen;
+  return EvenlyChosen(low, kMaxPoints);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <map>
+#include <optional>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -302,6 +305,44 @@ TEST(VoxelIndex, FindsTheNearestNeighbourWithinAVoxelAndNothingBeyond) {
   EXPECT_EQ(index.Find({0.045, 0.005, 0.005}), std::nullopt);
   EXPECT_EQ(index.Find({std::nan(""), 0, 0}), std::nullopt);
   EXPECT_EQ(VoxelIndex().Find({0, 0, 0}), std::nullopt);
+}
+
+// All points of the 27 voxels around the query, by exhaustive search.
+TEST(VoxelIndex, FindsWhatAnExhaustiveSearchFinds) {
+  constexpr double kVoxelSize = 0.01;
+  Random random(3);
+  const auto anywhere = [&] {
+    return Eigen::Vector3d(random.Uniform(-0.08, 0.08), random.Uniform(-0.08, 0.08),
+                           random.Uniform(-0.08, 0.08));
+  };
+  std::map<std::uint64_t, std::uint32_t> first_in_voxel;
+  std::vector<Eigen::Vector3f> positions;
+  const auto voxel_of = [&](const Eigen::Vector3d& point) {
+    return VoxelKey::Coordinates(point, kVoxelSize).value();
+  };
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    positions.push_back(anywhere().cast<float>());
+    first_in_voxel.try_emplace(VoxelKey::Pack(voxel_of(positions.back().cast<double>())), i);
+  }
+  const VoxelIndex index(positions, kVoxelSize);
+  int num_found = 0;
+  for (int query = 0; query < 2000; ++query) {
+    const Eigen::Vector3d place = anywhere();
+    std::optional<std::uint32_t> expected;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [key, point] : first_in_voxel) {
+      const Eigen::Vector3d position = positions[point].cast<double>();
+      const int steps = (voxel_of(position) - voxel_of(place)).cwiseAbs().maxCoeff();
+      const double distance = steps == 0 ? -1 : (position - place).squaredNorm();
+      if (steps > 1 || distance >= least) continue;
+      least = distance;
+      expected = point;
+    }
+    EXPECT_EQ(index.Find(place), expected) << place.transpose();
+    num_found += expected ? 1 : 0;
+  }
+  EXPECT_GT(num_found, 500);
+  EXPECT_LT(num_found, 2000);
 }
 
 }  // namespace

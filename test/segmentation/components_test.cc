@@ -141,6 +141,54 @@ TEST(Components, FragmentsJoinTheThingTheyTouchMostAndNoTable) {
   EXPECT_EQ(components.component_of_patch, (std::vector<std::uint32_t>{0, 1, 2, 2}));
 }
 
+// A table, a body on it of patches that face the given ways, and a head that touches both.
+PatchGraph HeadAndBody(std::uint32_t table_contacts,
+                       std::uint32_t body_contacts,
+                       const std::vector<Eigen::Vector3d>& body_normals) {
+  PatchGraph graph;
+  graph.patches = {MakePatch({0, 0, 0}, {0, 0, 1}, 0.3),
+                   MakePatch({0, 0, 0.35}, {0, -0.5, -1}, 0.03)};
+  graph.edges = {{0, 2, 20}, {1, 2, body_contacts}};
+  if (table_contacts > 0) graph.edges.insert(graph.edges.begin(), {0, 1, table_contacts});
+  for (const Eigen::Vector3d& normal : body_normals) {
+    const auto patch = static_cast<std::uint32_t>(graph.patches.size());
+    graph.patches.push_back(MakePatch({0, 0, 0.1}, normal, 0.02));
+    if (patch > 2) graph.edges.push_back({patch - 1, patch, 10});
+  }
+  return graph;
+}
+
+TEST(Components, WhatRestsOnARoundedThingIsPartOfIt) {
+  std::vector<Eigen::Vector3d> rounded;
+  std::vector<Eigen::Vector3d> box;
+  for (int i = 0; i < 9; ++i) {
+    const double angle = 0.7 * i;
+    rounded.emplace_back(std::cos(angle), std::sin(angle), 0.3);
+    box.emplace_back(Eigen::Vector3d::Unit(i / 3));
+  }
+  const auto is_joined = [](const PatchGraph& graph) {
+    std::vector<std::uint32_t> labels(graph.patches.size(), 2);
+    labels[0] = 1;
+    labels[1] = 3;
+    const Components components = FindComponents(graph, labels, ComponentOptions());
+    return components.component_of_patch[1] == components.component_of_patch[2];
+  };
+  EXPECT_TRUE(is_joined(HeadAndBody(0, 10, rounded)));
+  EXPECT_FALSE(is_joined(HeadAndBody(0, 10, box))) << "a thing on a box";
+  EXPECT_FALSE(is_joined(HeadAndBody(10, 10, rounded))) << "two things side by side";
+}
+
+TEST(Components, AFragmentThatTouchesNothingJoinsWhatIsNear) {
+  const auto components_of = [](double distance) {
+    PatchGraph graph;
+    graph.patches = {MakePatch({0, 0, 0}, {0, 0, 1}, 0.02),
+                     MakePatch({0, 0, distance}, {0, 0, 1}, 0.005)};
+    return FindComponents(graph, {0, 0}, ComponentOptions()).component_of_patch;
+  };
+  EXPECT_EQ(components_of(0.02), (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(components_of(0.03), (std::vector<std::uint32_t>{0, 1}));
+}
+
 // Two pieces of a wall, `gap` apart.
 PatchGraph DividedWall(double gap, double second_area) {
   PatchGraph graph;

@@ -216,6 +216,21 @@ TEST(BuildSemanticMap, CountsViewsWithoutADetectionAgainstAThing) {
   EXPECT_EQ(fuse(7).objects.size(), 1U);
 }
 
+TEST(BuildSemanticMap, CountsAViewWithoutADetectionLessIfTheThingIsSmallInIt) {
+  const auto fuse = [](const Box& cup) {
+    Desk desk({cup});
+    for (int i = 0; i < 14; ++i) {
+      const Rigid3 pose = ViewFrom(i % 5);
+      std::vector<Detection> detections;
+      if (i < 3) detections.push_back(Seen(kCup, 0.5F, desk.BoxAround(3, pose, 3)));
+      desk.AddKeyframe(pose, detections);
+    }
+    return desk.Fuse();
+  };
+  EXPECT_EQ(fuse(kCupBox).objects.size(), 0U) << "52 pixels of 320";
+  EXPECT_EQ(fuse({{-0.04, 0.22, 1.4}, {0.04, 0.3, 1.48}}).objects.size(), 1U) << "15 pixels";
+}
+
 TEST(BuildSemanticMap, NeedsTwoViewsOfWhatManySaw) {
   Desk desk({kCupBox});
   desk.AddKeyframe(ViewFrom(0), {Seen(kCup, 1.0F, desk.BoxAround(3, ViewFrom(0), 8))});
@@ -235,7 +250,9 @@ TEST(BuildSemanticMap, TellsBackgroundFromUnknown) {
   const auto judge_after = [](int num_views) {
     Desk desk({kCupBox});
     for (int i = 0; i < num_views; ++i) desk.AddKeyframe(ViewFrom(i % 4), {});
-    const SemanticMap map = desk.Fuse();
+    FusionOptions options;
+    options.evidence.sure_size = 0.05;
+    const SemanticMap map = desk.Fuse(options);
     const auto cup = std::find(map.segment_of_point.begin(), map.segment_of_point.end(), 3U) -
                      map.segment_of_point.begin();
     return std::pair(map.confidence_of_point[static_cast<std::size_t>(cup)],
@@ -405,6 +422,21 @@ TEST(BuildSemanticMap, TakesAFlatThingOutOfTheDeskItIsOneSegmentWith) {
   EXPECT_GT(num_on, 200U);
   EXPECT_GT(num_both, 0.85 * static_cast<double>(num_on));
   EXPECT_LT(num_labelled, 1.15 * static_cast<double>(num_on)) << "no class on the desk top";
+}
+
+TEST(BuildSemanticMap, TakesNothingAlongThatOnlyOneBoxHolds) {
+  Desk desk({{{-0.22, 0.275, 1.65}, {0.1, 0.3, 1.8}}, {{0.12, 0.275, 1.65}, {0.3, 0.3, 1.8}}});
+  for (int i = 0; i < 3; ++i) {
+    desk.AddKeyframe(ViewFrom(i), {Seen(kLaptop, 0.8F, desk.BoxAround(3, ViewFrom(i), 3))});
+  }
+  ImageBox both = desk.BoxAround(3, ViewFrom(3), 3);
+  both.max_x = desk.BoxAround(4, ViewFrom(3), 3).max_x;
+  desk.AddKeyframe(ViewFrom(3), {Seen(kLaptop, 0.8F, both)});
+  desk.JoinThingsToTheDesk();
+  const SemanticMap map = desk.Fuse();
+  ASSERT_EQ(map.objects.size(), 1U);
+  const OrientedBox& box = map.objects[0].box;
+  EXPECT_NEAR(2 * box.half_size.maxCoeff(), 0.32, 0.04);
 }
 
 TEST(BuildSemanticMap, TakesNothingOutOfTheDeskThatDoesNotRiseAboveIt) {

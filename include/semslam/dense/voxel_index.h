@@ -34,7 +34,7 @@ struct VoxelKey {
 };
 
 // Finds the point of a cloud (at most one a voxel) that lies at a place in the world. Immutable
-// after construction; safe to share.
+// after construction; safe to share. About 20 bytes a point.
 class VoxelIndex {
  public:
   VoxelIndex() = default;
@@ -46,18 +46,28 @@ class VoxelIndex {
   std::optional<std::uint32_t> Find(const Eigen::Vector3d& p_world) const;
 
  private:
-  std::optional<std::uint32_t> FindKey(std::uint64_t key) const;
+  // 4 x 4 x 4 voxels: what is looked up one after the other lies mostly in the same few.
+  struct Block {
+    std::uint64_t key;          // VoxelKey of the block's coordinates.
+    std::uint64_t is_occupied;  // A bit a voxel.
+    std::uint32_t first;        // Of its points in points_, in the order of the bits.
+  };
+  struct Point {
+    Eigen::Vector3f p_world;
+    std::uint32_t index;  // In the cloud.
+  };
+  std::uint32_t FindOrAddBlock(const Eigen::Vector3i& block);
+  void GrowSlots();
+  static std::size_t RankOf(const Block& block, int bit);  // In points_.
+  const Block* FindBlock(const Eigen::Vector3i& block) const;
+  const Point* FindPoint(const Block& block, int bit) const;
   std::optional<std::uint32_t> FindNear(const Eigen::Vector3d& p_world,
                                         const Eigen::Vector3i& voxel) const;
 
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t index;
-  };
   double voxel_size_ = 1;
-  std::vector<Entry> entries_;
-  std::vector<std::uint32_t> slots_;  // Hash table of entry number + 1; 0: empty.
-  std::vector<Eigen::Vector3f> positions_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> slots_;  // Hash table of block number + 1; 0: empty.
+  std::vector<Point> points_;
 };
 
 }  // namespace semslam

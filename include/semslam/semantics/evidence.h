@@ -41,7 +41,11 @@ struct EvidenceOptions {
   std::uint32_t min_pixels = 12;              // Grid cells; fewer tell nothing about a segment.
   double min_visible_share = 0.3;             // Of the segment's area, for evidence of a class,
   double min_visible_share_background = 0.5;  // and of there being none.
-  double background_weight = 0.2;             // Of a view in which no box holds the segment.
+  // Of a view in which no box holds the segment, if it is as large as sure_size of the image's
+  // width (side of the square of its area; COCO's "large" begins with 96 of 640 pixels); less in
+  // proportion if it is smaller.
+  double background_weight = 0.2;
+  double sure_size = 0.15;
 
   void Validate() const;  // Throws InputError.
 };
