@@ -55,6 +55,7 @@ class KeyframeJudge {
         view_(DrawSegments(keyframe, segmentation)),
         largest_inside_share_(segmentation.segments.size() + 1) {
     for (const Detection& detection : keyframe_.detections) JudgeBox(detection);
+    view_.image = {};  // Large, and of all keyframes there is a judge at once.
   }
 
   void AddTo(Evidence& evidence) const {
@@ -222,7 +223,7 @@ class KeyframeJudge {
   const Segmentation& segmentation_;
   const ClassTable& classes_;
   const EvidenceOptions& options_;
-  const KeyframeView view_;
+  KeyframeView view_;
   std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
   std::map<SegmentId, Gain> gains_;
   std::vector<BoxClaim> claims_;         // Of all boxes.

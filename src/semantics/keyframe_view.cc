@@ -14,6 +14,14 @@ namespace {
 
 constexpr double kMinCosine = 0.2;  // Of slanted views, when pixels are turned into areas.
 
+// Of the surface that a grid cell shows, square metres.
+float AreaOf(const KeyframePoint& point, const KeyframeCloud& cloud) {
+  const double side =
+      static_cast<double>(cloud.pixel_angle()) * cloud.stride() * point.p_camera.z();
+  const double cosine = -point.n_camera.dot(point.p_camera.normalized());
+  return static_cast<float>(side * side / std::max(cosine, kMinCosine));
+}
+
 SeenKeyframe FindSeenPoints(const LabelledKeyframe& keyframe,
                             const VoxelIndex& index,
                             const ClassTable& classes) {
@@ -23,22 +31,12 @@ SeenKeyframe FindSeenPoints(const LabelledKeyframe& keyframe,
   seen.cloud = keyframe.cloud;
   seen.detections =
       Sanitise(keyframe.detections, classes.size(), cloud.image_width(), cloud.image_height());
-  const auto columns = static_cast<std::size_t>(cloud.grid_columns());
-  const std::size_t num_cells = columns * static_cast<std::size_t>(cloud.grid_rows());
-  seen.points.assign(num_cells, kNoPoint);
-  seen.depth.assign(num_cells, 0.0F);
-  seen.areas.assign(num_cells, 0.0F);
-  const double cell_angle = static_cast<double>(cloud.pixel_angle()) * cloud.stride();
+  seen.points.reserve(cloud.num_points());
+  seen.areas.reserve(cloud.num_points());
   cloud.ForEach([&](const KeyframePoint& point) {
-    const std::size_t cell = static_cast<std::size_t>(point.row / cloud.stride()) * columns +
-                             static_cast<std::size_t>(point.column / cloud.stride());
-    seen.depth[cell] = point.p_camera.z();
     const auto found = index.Find(keyframe.T_world_camera * point.p_camera.cast<double>());
-    if (!found) return;
-    const double side = cell_angle * point.p_camera.z();
-    const double cosine = -point.n_camera.dot(point.p_camera.normalized());
-    seen.points[cell] = *found;
-    seen.areas[cell] = static_cast<float>(side * side / std::max(cosine, kMinCosine));
+    seen.points.push_back(found.value_or(kNoPoint));
+    seen.areas.push_back(AreaOf(point, cloud));
   });
   return seen;
 }
@@ -58,21 +56,34 @@ std::vector<SeenKeyframe> FindSeenPoints(std::span<const LabelledKeyframe> keyfr
 }
 
 KeyframeView DrawSegments(const SeenKeyframe& keyframe, const Segmentation& segmentation) {
+  const KeyframeCloud& cloud = *keyframe.cloud;
   KeyframeView view;
   SegmentImage& image = view.image;
-  image.columns = keyframe.cloud->grid_columns();
-  image.rows = keyframe.cloud->grid_rows();
-  image.depth = keyframe.depth;
-  image.points = keyframe.points;
-  image.segments.assign(keyframe.points.size(), 0);
+  image.columns = cloud.grid_columns();
+  image.rows = cloud.grid_rows();
+  const auto num_cells =
+      static_cast<std::size_t>(image.columns) * static_cast<std::size_t>(image.rows);
+  image.depth.assign(num_cells, 0.0F);
+  image.points.assign(num_cells, kNoPoint);
+  image.segments.assign(num_cells, 0);
   view.visibility.resize(segmentation.segments.size() + 1);
-  for (std::size_t cell = 0; cell < keyframe.points.size(); ++cell) {
-    if (keyframe.points[cell] == kNoPoint) continue;
-    const SegmentId segment = segmentation.segment_of_point[keyframe.points[cell]];
-    if (segment == 0) continue;
-    image.segments[cell] = segment;
-    view.visibility[segment].area += static_cast<double>(keyframe.areas[cell]);
-    ++view.visibility[segment].num_pixels;
+  std::size_t point = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    for (int column = 0; column < image.columns; ++column) {
+      const float depth = cloud.DepthAt(column, row);
+      if (depth == 0) continue;
+      const std::uint32_t in_map = keyframe.points[point];
+      const float area = keyframe.areas[point++];
+      const std::size_t cell = image.Cell(column, row);
+      image.depth[cell] = depth;
+      if (in_map == kNoPoint) continue;
+      image.points[cell] = in_map;
+      const SegmentId segment = segmentation.segment_of_point[in_map];
+      if (segment == 0) continue;
+      image.segments[cell] = segment;
+      view.visibility[segment].area += static_cast<double>(area);
+      ++view.visibility[segment].num_pixels;
+    }
   }
   return view;
 }

@@ -13,13 +13,14 @@
 
 namespace semslam {
 
-// A keyframe with the points of the map that it sees, cell by cell; the segments may still change.
+// A keyframe with the points of the map that it sees; the segments may still change. Of all
+// keyframes of a run at once, so that it holds no more than it must.
 struct SeenKeyframe {
   std::shared_ptr<const KeyframeCloud> cloud;
   std::vector<Detection> detections;  // Without those that make no sense.
+  // In the order in which the cloud visits its points.
   std::vector<std::uint32_t> points;  // In the map's cloud; kNoPoint: none there.
-  std::vector<float> depth;           // Metres; 0: none.
-  std::vector<float> areas;           // Square metres of surface.
+  std::vector<float> areas;           // Of surface, square metres.
 };
 inline constexpr std::uint32_t kNoPoint = 0xffffffff;
 
