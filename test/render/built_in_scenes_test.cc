@@ -18,6 +18,7 @@
 #include "semslam/render/hash.h"
 #include "semslam/render/renderer.h"
 #include "semslam/render/scenes.h"
+
 #include "support/sanitized.h"
 
 namespace semslam {

@@ -13,6 +13,7 @@
 #include "semslam/base/error.h"
 #include "semslam/base/random.h"
 #include "semslam/render/scenes.h"
+
 #include "support/sanitized.h"
 
 namespace semslam {
