@@ -7,7 +7,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#ifdef __SANITIZE_THREAD__
+#ifdef SEMSLAM_TELL_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -18,7 +18,7 @@ namespace {
 // which cannot look into TBB.
 class Handover {
  public:
-#ifdef __SANITIZE_THREAD__
+#ifdef SEMSLAM_TELL_THREAD_SANITIZER
   void Give() { __tsan_release(this); }
   void Take() { __tsan_acquire(this); }
 #else
