@@ -47,7 +47,8 @@ VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto voxel = VoxelKey::Coordinates(positions[i].cast<double>(), voxel_size);
     if (!voxel) continue;
-    places[i] = {FindOrAddBlock(BlockOf(*voxel)), BitOf(*voxel)};
+    places[i] = {numbers_.Insert(VoxelKey::Pack(BlockOf(*voxel))), BitOf(*voxel)};
+    if (places[i].block == blocks_.size()) blocks_.emplace_back();
     blocks_[places[i].block].is_occupied |= std::uint64_t{1} << places[i].bit;
   }
   std::uint32_t num_points = 0;
@@ -63,31 +64,7 @@ VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_
   }
 }
 
-std::uint32_t VoxelIndex::FindOrAddBlock(const Eigen::Vector3i& block) {
-  if (slots_.size() < 2 * (blocks_.size() + 1)) GrowSlots();
-  const std::uint64_t key = VoxelKey::Pack(block);
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = VoxelKey::Hash(key) & mask;
-  for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
-    if (blocks_[slots_[slot] - 1].key == key) return slots_[slot] - 1;
-  }
-  blocks_.push_back({key, 0, 0});
-  slots_[slot] = static_cast<std::uint32_t>(blocks_.size());
-  return slots_[slot] - 1;
-}
-
-void VoxelIndex::GrowSlots() {
-  slots_.assign(std::max<std::size_t>(slots_.size() * 2, 16), 0);
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t i = 0; i < blocks_.size(); ++i) {
-    std::size_t slot = VoxelKey::Hash(blocks_[i].key) & mask;
-    while (slots_[slot] != 0) slot = (slot + 1) & mask;
-    slots_[slot] = static_cast<std::uint32_t>(i + 1);
-  }
-}
-
 std::optional<std::uint32_t> VoxelIndex::Find(const Eigen::Vector3d& p_world) const {
-  if (blocks_.empty()) return std::nullopt;
   const auto voxel = VoxelKey::Coordinates(p_world, voxel_size_);
   if (!voxel) return std::nullopt;
   if (const Block* block = FindBlock(BlockOf(*voxel))) {
@@ -97,13 +74,8 @@ std::optional<std::uint32_t> VoxelIndex::Find(const Eigen::Vector3d& p_world) co
 }
 
 const VoxelIndex::Block* VoxelIndex::FindBlock(const Eigen::Vector3i& block) const {
-  const std::uint64_t key = VoxelKey::Pack(block);
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t slot = VoxelKey::Hash(key) & mask; slots_[slot] != 0; slot = (slot + 1) & mask) {
-    const Block& candidate = blocks_[slots_[slot] - 1];
-    if (candidate.key == key) return &candidate;
-  }
-  return nullptr;
+  const std::uint32_t number = numbers_.Find(VoxelKey::Pack(block));
+  return number == KeyNumbers::kNone ? nullptr : &blocks_[number];
 }
 
 std::size_t VoxelIndex::RankOf(const Block& block, int bit) {

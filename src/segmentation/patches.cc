@@ -8,9 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "semslam/base/key_numbers.h"
 #include "semslam/base/parallel.h"
-
-#include "segmentation/key_numbers.h"
 
 namespace semslam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "segmentation/key_numbers.h"
+#include "semslam/base/key_numbers.h"
 
 namespace semslam {
 namespace {

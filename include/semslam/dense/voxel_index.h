@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include "semslam/base/key_numbers.h"
+
 namespace semslam {
 
 // Integer coordinates of a voxel, and its 64-bit key. Keys order voxels by x, then y, then z.
@@ -48,16 +50,13 @@ class VoxelIndex {
  private:
   // 4 x 4 x 4 voxels: what is looked up one after the other lies mostly in the same few.
   struct Block {
-    std::uint64_t key;          // VoxelKey of the block's coordinates.
-    std::uint64_t is_occupied;  // A bit a voxel.
-    std::uint32_t first;        // Of its points in points_, in the order of the bits.
+    std::uint64_t is_occupied = 0;  // A bit a voxel.
+    std::uint32_t first = 0;        // Of its points in points_, in the order of the bits.
   };
   struct Point {
     Eigen::Vector3f p_world;
     std::uint32_t index;  // In the cloud.
   };
-  std::uint32_t FindOrAddBlock(const Eigen::Vector3i& block);
-  void GrowSlots();
   static std::size_t RankOf(const Block& block, int bit);  // In points_.
   const Block* FindBlock(const Eigen::Vector3i& block) const;
   const Point* FindPoint(const Block& block, int bit) const;
@@ -65,8 +64,8 @@ class VoxelIndex {
                                         const Eigen::Vector3i& voxel) const;
 
   double voxel_size_ = 1;
+  KeyNumbers numbers_{0};  // Of the blocks, by the VoxelKey of their coordinates.
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> slots_;  // Hash table of block number + 1; 0: empty.
   std::vector<Point> points_;
 };
 

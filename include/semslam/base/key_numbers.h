@@ -10,7 +10,7 @@
 
 namespace semslam {
 
-// Keys to numbers in the order in which they come; open addressing.
+// Numbers 64-bit keys in the order in which they come; open addressing.
 class KeyNumbers {
  public:
   explicit KeyNumbers(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 16)) {}
