@@ -75,6 +75,7 @@ void PrintSummary(const RunStatistics& run,
   }
   std::printf("tracking time         median %.1f ms, p95 %.1f ms\n",
               Quantile(run.tracking_milliseconds, 0.5), Quantile(run.tracking_milliseconds, 0.95));
+  std::printf("rolling shutter       %.1f ms\n", 1e3 * status.readout_seconds);
   std::printf("keyframes             %zu\n", status.num_keyframes);
   std::printf("landmarks             %zu\n", status.num_landmarks);
   std::printf("loops closed          %zu\n", status.num_loops);

@@ -217,6 +217,12 @@ void SettingsFile::Read(const std::string& key, double* value, const NumberRange
   if (const Entry* entry = Find(key)) *value = ToNumber(key, *entry, range, false);
 }
 
+void SettingsFile::Read(const std::string& key,
+                        std::optional<double>* value,
+                        const NumberRange& range) {
+  if (const Entry* entry = Find(key)) *value = ToNumber(key, *entry, range, false);
+}
+
 void SettingsFile::Read(const std::string& key, int* value, const NumberRange& range) {
   const Entry* entry = Find(key);
   if (entry == nullptr) return;

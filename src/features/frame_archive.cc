@@ -30,7 +30,7 @@ Keypoint ReadKeypoint(BinaryReader* reader, int num_levels) {
   Keypoint keypoint{.pixel = {v[0], v[1]},
                     .raw_pixel = {v[2], v[3]},
                     .depth = v[4],
-                    .right_x = v[5],
+                    .right_x = v[4] > 0 ? v[5] : kNoRightX,
                     .angle = v[6],
                     .octave = reader->Read<std::int16_t>(),
                     .response = v[7]};

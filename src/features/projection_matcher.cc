@@ -31,7 +31,7 @@ Candidate FindBest(const ProjectedPoint& point,
       point.pixel, point.radius, point.min_octave, point.max_octave, [&](int feature) {
         if (!is_taken.empty() && is_taken[feature] != 0) return;
         const Keypoint& keypoint = frame.keypoints[feature];
-        if (point.right_x >= 0 && keypoint.right_x >= 0 &&
+        if (point.right_x != kNoRightX && keypoint.right_x != kNoRightX &&
             std::abs(point.right_x - keypoint.right_x) > point.radius) {
           return;
         }

@@ -19,7 +19,7 @@ auto FindObservation(const std::vector<Observation>& observations, KeyframeId ke
 }
 
 int NumMeasurements(const Keyframe& keyframe, int feature) {
-  return keyframe.frame->keypoints[feature].right_x >= 0 ? 2 : 1;
+  return keyframe.frame->keypoints[feature].has_depth() ? 2 : 1;
 }
 
 }  // namespace

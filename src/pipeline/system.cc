@@ -121,7 +121,9 @@ Tracking::Result System::TrackRGBD(const RgbdImagePtr& image) {
       entries.push_back({image->time, result.reference_keyframe, result.T_reference_camera});
     });
   }
-  if (result.new_keyframe && !mapping_stage_.Submit({*result.new_keyframe, image})) {
+  if (!result.new_keyframe) return result;
+  events_.Write([&](Events& e) { e.readout_seconds = tracking_.readout_seconds(); });
+  if (!mapping_stage_.Submit({*result.new_keyframe, image})) {
     mapping_stage_.Finish();  // It failed: tell why.
   }
   return result;
@@ -296,6 +298,7 @@ System::Status System::status() const {
         e.loops.begin(), e.loops.end(), [](const auto& l) { return l.joins_pieces; }));
     status.num_loops = e.loops.size() - status.num_joins;
     status.num_full_bundles = e.num_full_bundles;
+    status.readout_seconds = e.readout_seconds;
   });
   status.num_voxels = point_cloud_mapping_.num_voxels();
   status.mapping_is_idle = mapping_stage_.idle();

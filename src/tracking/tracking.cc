@@ -66,7 +66,8 @@ Tracking::Tracking(const Options& options,
                vocabulary_,
                map),
       localization_only_(options.localization_only),
-      keyframe_policy_(options.keyframes) {
+      keyframe_policy_(options.keyframes),
+      shutter_(options.shutter, camera, baseline_times_fx) {
   options_.Validate();
   SEMSLAM_CHECK(vocabulary_ != nullptr);
 }
@@ -129,12 +130,12 @@ Tracking::Result Tracking::TrackInMap(std::shared_ptr<const Frame> frame,
 }
 
 // The frame's pose in the local map, if enough agrees with it.
-std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Frame>& frame) {
+std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Frame>& recorded) {
   Stopwatch stopwatch;
   std::optional<TrackedFrame> current;
-  if (state_ == TrackingState::kTracking) current = PredictAndMatch(frame);
+  if (state_ == TrackingState::kTracking) current = TrackFromLast(recorded);
   const bool is_lost = !current;
-  if (is_lost) current = Relocalize(frame);
+  if (is_lost) current = Relocalize(recorded);
   first_pose_seconds_ += stopwatch.Seconds();
   if (!current) return std::nullopt;
   stopwatch.Restart();
@@ -145,7 +146,29 @@ std::optional<Tracking::Located> Tracking::Locate(const std::shared_ptr<const Fr
   if (num_inliers < (was_lost_lately ? options_.min_inliers_after_loss : options_.min_inliers)) {
     return std::nullopt;
   }
+  if (const auto velocity = is_lost ? std::nullopt : VelocityAt(*current)) {
+    shutter_.Learn(*recorded, *current, *velocity, scale_space_);
+  }
   return Located{*std::move(current), num_inliers, is_lost};
+}
+
+// The pose from the last frame's or its keyframe's points. Its velocity says how the rolling
+// shutter skewed the frame: first the last frame's, then its own.
+std::optional<TrackedFrame> Tracking::TrackFromLast(const std::shared_ptr<const Frame>& recorded) {
+  std::optional<TrackedFrame> current =
+      PredictAndMatch(velocity_ ? shutter_.Correct(recorded, *velocity_) : recorded);
+  if (!current) return std::nullopt;
+  const std::optional<Vector6d> velocity = VelocityAt(*current);
+  current->frame = velocity ? shutter_.Correct(recorded, *velocity) : recorded;
+  return current;
+}
+
+// Since the last frame; nothing if that is too long ago to tell.
+std::optional<Vector6d> Tracking::VelocityAt(const TrackedFrame& current) const {
+  constexpr double kMaxSeconds = 0.2;
+  const double seconds = ToSeconds(current.frame->time - last_.frame->time);
+  if (!(seconds > 0 && seconds < kMaxSeconds)) return std::nullopt;
+  return LocalDifference(last_.T_world_camera, current.T_world_camera) / seconds;
 }
 
 Tracking::Result Tracking::Initialize(std::shared_ptr<const Frame> frame) {
@@ -183,6 +206,7 @@ Tracking::Result Tracking::StartPiece(std::shared_ptr<const Frame> frame,
   last_reference_ = id;
   T_reference_last_ = Rigid3();
   T_last_next_.reset();
+  velocity_.reset();
   num_frames_since_found_ = options_.keyframes.max_frames_between;
   result.state = state_;
   result.T_world_camera = T_world_camera;

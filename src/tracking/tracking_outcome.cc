@@ -32,9 +32,11 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
   if (located.relocalized) {
     num_frames_since_found_ = 0;
     T_last_next_.reset();
+    velocity_.reset();
   } else {
     ++num_frames_since_found_;
     T_last_next_ = last_.T_world_camera.Inverse() * current.T_world_camera;
+    velocity_ = VelocityAt(current);
   }
   state_ = TrackingState::kTracking;
   num_frames_lost_ = num_good_frames_lost_ = 0;
@@ -146,6 +148,7 @@ void Tracking::ApplySightings(Map& map) {
 
 Tracking::Result Tracking::Fail(std::shared_ptr<const Frame> frame) {
   T_last_next_.reset();
+  velocity_.reset();
   sightings_.clear();
   state_ = TrackingState::kLost;
   ++num_frames_lost_;

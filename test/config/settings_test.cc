@@ -83,6 +83,18 @@ TEST(Settings, HoldTheBenchmarksCalibration) {
   EXPECT_NEAR(settings.CloseDepth(), 40 * 40 / 517.306408, 1e-12);
 }
 
+TEST(Settings, TakeTheRollingShutterAsGivenElseItIsEstimated) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(LoadSettings(kConfigFolder / "TUM1.yaml").tracking.shutter.readout_seconds, 0.026);
+  const auto global =
+      folder.Write("global.yaml", Tum1With("Camera.readout:", "Camera.readout: 0 #"));
+  EXPECT_EQ(LoadSettings(global).tracking.shutter.readout_seconds, 0);
+  const auto unknown = folder.Write("unknown.yaml", Tum1With("Camera.readout:", "#"));
+  EXPECT_EQ(LoadSettings(unknown).tracking.shutter.readout_seconds, std::nullopt);
+  EXPECT_EQ(ErrorOfTum1With("Camera.readout:", "Camera.readout: 26 #"),
+            "Camera.readout: expected a number from -0.05 to 0.05, found 26");
+}
+
 TEST(Settings, TakeTheViewersKeysOfThePublishedSystemInSilence) {
   const TemporaryFolder folder;
   const auto path =

@@ -68,8 +68,11 @@ TEST_F(FrameBuilderTest, TakesDepthAtTheRecordedPixel) {
 
 TEST_F(FrameBuilderTest, AddsTheColumnInTheVirtualRightCamera) {
   for (const Keypoint& k : frame_.keypoints) {
-    const double expected = k.has_depth() ? k.pixel.x() - kBf / k.depth : -1.0;
-    ASSERT_NEAR(k.right_x, expected, 1e-3);
+    if (k.has_depth()) {
+      ASSERT_NEAR(k.right_x, k.pixel.x() - kBf / k.depth, 1e-3);
+    } else {
+      ASSERT_EQ(k.right_x, kNoRightX);
+    }
   }
 }
 

@@ -63,7 +63,7 @@ std::vector<ProjectedPoint> RandomPoints(const Frame& frame, int count, Random& 
     const Keypoint& keypoint = frame.keypoints[feature];
     point.pixel = keypoint.pixel +
                   Eigen::Vector2d(random.Uniform(-15, 15), random.Uniform(-15, 15)).cast<float>();
-    point.right_x = random.Index(4) == 0 ? -1.0F : point.pixel.x() - 20;
+    point.right_x = random.Index(4) == 0 ? kNoRightX : point.pixel.x() - 20;
     point.radius = static_cast<float>(random.Uniform(5, 40));
     point.min_octave = std::max(0, keypoint.octave - 1);
     point.max_octave = keypoint.octave + static_cast<int>(random.Index(2));
@@ -88,7 +88,7 @@ std::vector<FeatureMatch> MatchByBruteForce(const std::vector<ProjectedPoint>& p
       if (!is_taken.empty() && is_taken[i] != 0) continue;
       if (offset.cwiseAbs().maxCoeff() > point.radius) continue;
       if (keypoint.octave < point.min_octave || keypoint.octave > point.max_octave) continue;
-      if (point.right_x >= 0 && keypoint.right_x >= 0 &&
+      if (point.right_x != kNoRightX && keypoint.right_x != kNoRightX &&
           std::abs(point.right_x - keypoint.right_x) > point.radius) {
         continue;
       }
@@ -203,7 +203,7 @@ TEST_F(OneWindow, DepthMustAgreeWhereBothHaveIt) {
   EXPECT_THAT(MatchProjectedPoints({{point}}, frame, {}, {}), IsEmpty());
   point.right_x = 69;
   EXPECT_THAT(MatchProjectedPoints({{point}}, frame, {}, {}), ElementsAre(FeatureMatch{0, 0, 3}));
-  point.right_x = -1;
+  point.right_x = kNoRightX;
   EXPECT_THAT(MatchProjectedPoints({{point}}, frame, {}, {}), ElementsAre(FeatureMatch{0, 0, 3}));
 }
 

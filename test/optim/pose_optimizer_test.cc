@@ -117,7 +117,7 @@ TEST(PoseOptimizer, PointsBehindTheCameraAreOutliers) {
   // The mirror image of a point projects to the same pixel.
   const Eigen::Vector3d p_camera = scene.T_world_camera.Inverse() * scene.observations[0].p_world;
   scene.observations[0].p_world = scene.T_world_camera * Eigen::Vector3d(-p_camera);
-  scene.observations[0].image.right_x = -1;
+  scene.observations[0].image.right_x = kNoRightX;
   const PoseSolution solution = Solve(scene);
   EXPECT_EQ(solution.is_inlier[0], 0);
   EXPECT_EQ(solution.num_inliers, 99);

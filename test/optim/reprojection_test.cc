@@ -45,7 +45,6 @@ Case MakeCase(bool with_depth, std::uint64_t seed) {
   result.p_world = result.T_world_camera * p_camera;
   result.image = testing::Observe(TestCamera(), p_camera, with_depth);
   result.image.pixel += Eigen::Vector2d(3, -2);
-  if (with_depth) result.image.right_x = std::abs(result.image.right_x);
   result.image.inverse_variance = random.Uniform(0.1, 1);
   return result;
 }

@@ -32,7 +32,7 @@ inline ImagePoint Observe(const StereoCamera& camera,
 
 inline bool IsInImage(const ImagePoint& image) {
   return image.pixel.x() >= 0 && image.pixel.x() < 640 && image.pixel.y() >= 0 &&
-         image.pixel.y() < 480 && (image.right_x == -1 || image.right_x >= 0);
+         image.pixel.y() < 480;
 }
 
 inline Vector6d RandomTwist(double angle, double distance, Random* random) {
@@ -57,7 +57,7 @@ inline bool Disturb(const Noise& noise, Random* random, ImagePoint* image) {
   const bool outlier = random->Uniform() < noise.outliers;
   if (outlier) image->pixel = {random->Uniform(0, 640), random->Uniform(0, 480)};
   image->pixel += Eigen::Vector2d(error(), error());
-  if (image->has_right()) image->right_x = std::max(0.0, image->right_x + error());
+  if (image->has_right()) image->right_x += error();
   return outlier;
 }
 

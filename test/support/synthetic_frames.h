@@ -80,25 +80,25 @@ class SyntheticWorld {
 
   // Frame `number` of a camera with 30 frames a second, at the given pose.
   SyntheticView Look(int number, const Rigid3& T_world_camera) const {
-    SyntheticView view{nullptr, {}, T_world_camera};
-    auto frame = std::make_shared<Frame>();
-    frame->time = number * (kNsPerSecond / 30);
-    Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
-    const Rigid3 T_camera_world = T_world_camera.Inverse();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Eigen::Vector3d p_camera = T_camera_world * points_[i].p_world;
-      if (p_camera.z() < 0.3) continue;
-      Keypoint keypoint;
-      if (!Show(points_[i], p_camera, random, &keypoint)) continue;
-      frame->keypoints.push_back(keypoint);
-      frame->descriptors.push_back(Disturb(points_[i].descriptor, options_.num_flips, random));
-      view.points.push_back(static_cast<int>(i));
-    }
-    frame->grid = FeatureGrid(frame->keypoints, camera_.ideal_bounds());
-    view.frame = std::move(frame);
-    return view;
+    return LookWith(number, T_world_camera, [&](const Eigen::Vector3d& p_world) {
+      return Eigen::Vector3d(T_world_camera.Inverse() * p_world);
+    });
   }
   SyntheticView LookAlongPath(int number) const { return Look(number, PathAt(number / 30.0)); }
+
+  // The same through a rolling shutter on any path: the middle row is exposed at the frame's time.
+  template <typename Path>  // Rigid3(double seconds).
+  SyntheticView LookWhileRolling(int number, const Path& path, double readout_seconds) const {
+    const double middle = number / 30.0;
+    return LookWith(number, path(middle), [&](const Eigen::Vector3d& p_world) {
+      Eigen::Vector3d p_camera = path(middle).Inverse() * p_world;
+      for (int i = 0; i < 4 && p_camera.z() > 0.3; ++i) {  // Which row sees it depends on when.
+        const double row = camera_.Project(p_camera).y() / camera_.height() - 0.5;
+        p_camera = path(middle + row * readout_seconds).Inverse() * p_world;
+      }
+      return p_camera;
+    });
+  }
 
   static std::shared_ptr<const Frame> BlankFrame(int number) {
     auto frame = std::make_shared<Frame>();
@@ -127,6 +127,29 @@ class SyntheticWorld {
     float angle = 0;
     Descriptor descriptor;
   };
+
+  // `to_camera` takes a point from the world to the camera that sees it.
+  template <typename ToCamera>
+  SyntheticView LookWith(int number,
+                         const Rigid3& T_world_camera,
+                         const ToCamera& to_camera) const {
+    SyntheticView view{nullptr, {}, T_world_camera};
+    auto frame = std::make_shared<Frame>();
+    frame->time = number * (kNsPerSecond / 30);
+    Random random(options_.seed * 1000003 + static_cast<std::uint64_t>(number));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Eigen::Vector3d p_camera = to_camera(points_[i].p_world);
+      if (p_camera.z() < 0.3) continue;
+      Keypoint keypoint;
+      if (!Show(points_[i], p_camera, random, &keypoint)) continue;
+      frame->keypoints.push_back(keypoint);
+      frame->descriptors.push_back(Disturb(points_[i].descriptor, options_.num_flips, random));
+      view.points.push_back(static_cast<int>(i));
+    }
+    frame->grid = FeatureGrid(frame->keypoints, camera_.ideal_bounds());
+    view.frame = std::move(frame);
+    return view;
+  }
 
   bool Show(const Point& point,
             const Eigen::Vector3d& p_camera,

@@ -110,7 +110,7 @@ TEST_F(RelocalizationTest, AFrameWithoutDepthIsFoundByItsPixels) {
   auto flat = std::make_shared<Frame>(*LookFrom(10, 200));
   for (Keypoint& keypoint : flat->keypoints) {
     keypoint.depth = 0;
-    keypoint.right_x = -1;
+    keypoint.right_x = kNoRightX;
   }
   const Tracking::Result found = Track(flat);
   ASSERT_EQ(found.state, TrackingState::kTracking);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,7 @@ class SettingsFile {
   // is of another type, not finite or out of range. An int may be written 8 or 8.0; a bool 0, 1,
   // true or false; a text with or without quotes.
   void Read(const std::string& key, double* value, const NumberRange& range = {});
+  void Read(const std::string& key, std::optional<double>* value, const NumberRange& range = {});
   void Read(const std::string& key, int* value, const NumberRange& range = {});
   void Read(const std::string& key, bool* value);
   void Read(const std::string& key, std::string* value);

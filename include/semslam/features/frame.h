@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "semslam/base/time.h"
+#include "semslam/camera/virtual_stereo.h"
 #include "semslam/features/descriptor.h"
 #include "semslam/features/feature_grid.h"
 
@@ -18,10 +19,10 @@ struct Keypoint {
   Eigen::Vector2f pixel{0, 0};      // Ideal (undistorted) pixel of the full image.
   Eigen::Vector2f raw_pixel{0, 0};  // As recorded.
   float depth = 0;                  // Metres along the optical axis; 0 = none.
-  float right_x = -1;       // pixel.x - bf / depth: column in a virtual right camera; -1 = none.
-  float angle = 0;          // Radians in [0, 2 pi), from the x axis to the y axis.
-  std::int16_t octave = 0;  // Pyramid level it was found on; 0 = the full image.
-  float response = 0;       // Strength of the corner.
+  float right_x = kNoRightX;        // pixel.x - bf / depth: column in a virtual right camera.
+  float angle = 0;                  // Radians in [0, 2 pi), from the x axis to the y axis.
+  std::int16_t octave = 0;          // Pyramid level it was found on; 0 = the full image.
+  float response = 0;               // Strength of the corner.
 
   bool has_depth() const { return depth > 0; }
 };

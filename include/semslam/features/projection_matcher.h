@@ -23,10 +23,10 @@ inline constexpr int kStrictHammingLimit = 50;
 // Where a landmark should be in an image.
 struct ProjectedPoint {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  // Ideal pixel.
-  float right_x = -1;  // Virtual right coordinate, < 0: not to be compared.
-  float radius = 0;    // Pixels, half the side of the search window.
-  int min_octave = 0;  // Inclusive.
-  int max_octave = 0;  // Inclusive.
+  float right_x = kNoRightX;  // Column in the virtual right camera, if it is to be compared.
+  float radius = 0;           // Pixels, half the side of the search window.
+  int min_octave = 0;         // Inclusive.
+  int max_octave = 0;         // Inclusive.
   Descriptor descriptor;
 };
 

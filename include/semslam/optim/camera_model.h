@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "semslam/camera/pinhole_camera.h"
+#include "semslam/camera/virtual_stereo.h"
 
 namespace semslam {
 
@@ -27,10 +28,10 @@ inline StereoCamera MakeStereoCamera(const PinholeCamera& camera, double baselin
 // Where a camera saw a point: two measured numbers, or three with depth.
 struct ImagePoint {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // Undistorted.
-  double right_x = -1;          // u in the virtual right camera, pixels; < 0: none.
+  double right_x = kNoRightX;                       // u in the virtual right camera, pixels.
   double inverse_variance = 1;  // 1 / px^2, the same for all two or three numbers; > 0.
 
-  bool has_right() const { return right_x >= 0; }
+  bool has_right() const { return right_x != kNoRightX; }
 };
 
 // Squared errors over their variance above these are outliers: the 95 % points of the chi-squared

@@ -67,6 +67,7 @@ class System {
     std::size_t num_loops = 0;            // Closed.
     std::size_t num_joins = 0;            // Pieces of the map that were joined to others.
     std::size_t num_pieces = 0;           // Of the map, now.
+    double readout_seconds = 0;           // Of the rolling shutter: see RollingShutter.
     std::size_t num_full_bundles = 0;  // Bundle adjustments of the whole map that ran to the end.
     bool mapping_is_idle = true;       // Local mapping has nothing queued and nothing in hand.
     std::size_t mapping_queue = 0;
@@ -171,6 +172,7 @@ class System {
   struct Events {
     std::size_t num_relocalizations = 0;
     std::size_t num_full_bundles = 0;
+    double readout_seconds = 0;
     std::vector<LoopClosing::Loop> loops;
   };
 

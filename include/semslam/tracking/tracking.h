@@ -16,6 +16,7 @@
 #include "semslam/tracking/frame_locator.h"
 #include "semslam/tracking/keyframe_policy.h"
 #include "semslam/tracking/local_map.h"
+#include "semslam/tracking/rolling_shutter.h"
 #include "semslam/tracking/tracked_frame.h"
 
 namespace semslam {
@@ -54,6 +55,7 @@ class Tracking {
     std::size_t min_keyframes_to_keep = 5;
     bool localization_only = false;  // In a loaded map, which stays as it is.
     KeyframePolicy::Options keyframes;
+    RollingShutter::Options shutter;
     void Validate() const;  // Throws std::logic_error.
   };
 
@@ -97,6 +99,8 @@ class Tracking {
   void SetLocalizationOnly(bool localization_only) { localization_only_ = localization_only; }
 
   TrackingState state() const { return state_; }
+  // Of the camera's rows; see RollingShutter.
+  double readout_seconds() const { return shutter_.readout_seconds(); }
 
  private:
   // A frame that was found in the map.
@@ -112,7 +116,9 @@ class Tracking {
   Result WithSight(Result result, std::shared_ptr<const Frame> frame) const;
   Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
   void BringLastFrameUpToDate();
-  std::optional<Located> Locate(const std::shared_ptr<const Frame>& frame);
+  std::optional<Located> Locate(const std::shared_ptr<const Frame>& recorded);
+  std::optional<TrackedFrame> TrackFromLast(const std::shared_ptr<const Frame>& recorded);
+  std::optional<Vector6d> VelocityAt(const TrackedFrame& current) const;
   std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
   std::optional<TrackedFrame> TrackWithMotion(const std::shared_ptr<const Frame>& frame) const;
   std::optional<TrackedFrame> TrackKeyframe(const std::shared_ptr<const Frame>& frame,
@@ -144,11 +150,13 @@ class Tracking {
   std::optional<KeyframeId> newest_loaded_;  // Of a map that was filled from elsewhere.
   KeyframePolicy keyframe_policy_;
   LocalMap local_map_;
+  RollingShutter shutter_;
   std::uint64_t epoch_ = 0;    // Of the map in which the poses below are.
   TrackedFrame last_;          // The last frame that was tracked.
   KeyframeId last_reference_;  // last_ relative to this keyframe, see T_reference_last_.
   Rigid3 T_reference_last_;
   std::optional<Rigid3> T_last_next_;  // Motion of the last step; none after a loss.
+  std::optional<Vector6d> velocity_;   // In that step, a second; see RollingShutter.
   int num_frames_since_found_ = 0;     // After a loss; large before the first.
   int num_frames_since_keyframe_ = 0;
   int num_frames_tracked_ = 0;     // Since the map, or the newest piece of it, was started.
