@@ -23,16 +23,48 @@ int BitOf(const Eigen::Vector3i& voxel) {
          (voxel.z() & kBlockMask);
 }
 
+// std::popcount, which is a call where processors need not have an instruction for it.
+std::size_t CountBits(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555;
+  bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return bits * 0x0101010101010101 >> 56;
+}
+
+// The bits of a block's voxels from one to another along an axis, both counted in the block.
+std::uint64_t BitsAlongX(int first, int last) {
+  return ((std::uint64_t{1} << 16 * (last - first + 1)) - 1) << 16 * first;
+}
+std::uint64_t BitsAlongY(int first, int last) {
+  return (((std::uint64_t{1} << 4 * (last - first + 1)) - 1) << 4 * first) * 0x0001000100010001;
+}
+std::uint64_t BitsAlongZ(int first, int last) {
+  return (((std::uint64_t{1} << (last - first + 1)) - 1) << first) * 0x1111111111111111;
+}
+
+// The part of [voxel - 1, voxel + 1] that lies in a block, along one axis, counted in the block.
+struct Span {
+  int first, last;
+};
+Span NeighboursIn(int block, int voxel) {
+  const int begin = block << kBlockBits;
+  return {std::max(voxel - 1, begin) - begin, std::min(voxel + 1, begin + kBlockMask) - begin};
+}
+
+// The same for all axes, as bits.
+std::uint64_t NeighboursIn(const Eigen::Vector3i& block, const Eigen::Vector3i& voxel) {
+  const Span x = NeighboursIn(block.x(), voxel.x());
+  const Span y = NeighboursIn(block.y(), voxel.y());
+  const Span z = NeighboursIn(block.z(), voxel.z());
+  return BitsAlongX(x.first, x.last) & BitsAlongY(y.first, y.last) & BitsAlongZ(z.first, z.last);
+}
+
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-std::optional<Eigen::Vector3i> VoxelKey::Coordinates(const Eigen::Vector3d& p_world,
-                                                     double voxel_size) {
-  const Eigen::Vector3d scaled = p_world / voxel_size;
-  // Leaves a margin of one voxel, so that neighbours have keys too. False for NaN.
-  if (!(scaled.cwiseAbs().maxCoeff() < static_cast<double>(kLimit - 2))) return std::nullopt;
-  return Eigen::Vector3i(scaled.array().floor().cast<int>());
+inline std::size_t VoxelIndex::RankOf(const Block& block, int bit) {
+  return block.first + CountBits(block.is_occupied & ((std::uint64_t{1} << bit) - 1));
 }
 
 VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_size)
@@ -44,70 +76,70 @@ VoxelIndex::VoxelIndex(std::span<const Eigen::Vector3f> positions, double voxel_
     int bit = 0;
   };
   std::vector<Place> places(positions.size());
+  std::uint64_t last_key = kNoKey;
+  std::uint32_t last_block = kNone;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto voxel = VoxelKey::Coordinates(positions[i].cast<double>(), voxel_size);
     if (!voxel) continue;
-    places[i] = {numbers_.Insert(VoxelKey::Pack(BlockOf(*voxel))), BitOf(*voxel)};
+    const std::uint64_t key = VoxelKey::Pack(BlockOf(*voxel));
+    if (key != last_key) last_block = numbers_.Insert(key);
+    last_key = key;
+    places[i] = {last_block, BitOf(*voxel)};
     if (places[i].block == blocks_.size()) blocks_.emplace_back();
     blocks_[places[i].block].is_occupied |= std::uint64_t{1} << places[i].bit;
   }
   std::uint32_t num_points = 0;
   for (Block& block : blocks_) {
     block.first = num_points;
-    num_points += static_cast<std::uint32_t>(std::popcount(block.is_occupied));
+    num_points += static_cast<std::uint32_t>(CountBits(block.is_occupied));
   }
-  points_.assign(num_points, {Eigen::Vector3f::Zero(), kNone});
+  indices_.assign(num_points, kNone);
+  positions_.resize(num_points);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (places[i].block == kNone) continue;
-    Point& point = points_[RankOf(blocks_[places[i].block], places[i].bit)];
-    if (point.index == kNone) point = {positions[i], static_cast<std::uint32_t>(i)};
+    const std::size_t rank = RankOf(blocks_[places[i].block], places[i].bit);
+    if (indices_[rank] != kNone) continue;
+    indices_[rank] = static_cast<std::uint32_t>(i);
+    positions_[rank] = positions[i];
   }
 }
 
-std::optional<std::uint32_t> VoxelIndex::Find(const Eigen::Vector3d& p_world) const {
-  const auto voxel = VoxelKey::Coordinates(p_world, voxel_size_);
+inline const VoxelIndex::Block& VoxelIndex::Finder::BlockAt(const Eigen::Vector3i& block) {
+  const std::uint64_t key = VoxelKey::Pack(block);
+  if (key == last_key_) return last_;
+  const std::uint32_t number = index_.numbers_.Find(key);
+  last_key_ = key;
+  last_ = number == KeyNumbers::kNone ? Block() : index_.blocks_[number];
+  return last_;
+}
+
+std::optional<std::uint32_t> VoxelIndex::Finder::Find(const Eigen::Vector3d& p_world) {
+  const auto voxel = VoxelKey::Coordinates(p_world, index_.voxel_size_);
   if (!voxel) return std::nullopt;
-  if (const Block* block = FindBlock(BlockOf(*voxel))) {
-    if (const Point* point = FindPoint(*block, BitOf(*voxel))) return point->index;
-  }
+  const int bit = BitOf(*voxel);
+  const Block& block = BlockAt(BlockOf(*voxel));
+  if ((block.is_occupied >> bit & 1) != 0) return index_.indices_[RankOf(block, bit)];
   return FindNear(p_world, *voxel);
 }
 
-const VoxelIndex::Block* VoxelIndex::FindBlock(const Eigen::Vector3i& block) const {
-  const std::uint32_t number = numbers_.Find(VoxelKey::Pack(block));
-  return number == KeyNumbers::kNone ? nullptr : &blocks_[number];
-}
-
-std::size_t VoxelIndex::RankOf(const Block& block, int bit) {
-  const std::uint64_t before = block.is_occupied & ((std::uint64_t{1} << bit) - 1);
-  return block.first + static_cast<std::size_t>(std::popcount(before));
-}
-
-const VoxelIndex::Point* VoxelIndex::FindPoint(const Block& block, int bit) const {
-  const bool is_occupied = (block.is_occupied >> bit & 1) != 0;
-  return is_occupied ? &points_[RankOf(block, bit)] : nullptr;
-}
-
-std::optional<std::uint32_t> VoxelIndex::FindNear(const Eigen::Vector3d& p_world,
-                                                  const Eigen::Vector3i& voxel) const {
+std::optional<std::uint32_t> VoxelIndex::Finder::FindNear(const Eigen::Vector3d& p_world,
+                                                          const Eigen::Vector3i& voxel) {
   std::optional<std::uint32_t> nearest;
   double nearest_distance = std::numeric_limits<double>::infinity();
-  const Block* block = nullptr;
-  std::optional<Eigen::Vector3i> last;  // Whose block that is.
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) {
-        const Eigen::Vector3i neighbour = voxel + Eigen::Vector3i(x, y, z);
-        if (const Eigen::Vector3i at = BlockOf(neighbour); at != last) {
-          block = FindBlock(at);
-          last = at;
-        }
-        const Point* point = block != nullptr ? FindPoint(*block, BitOf(neighbour)) : nullptr;
-        if (point == nullptr) continue;
-        const double distance = (point->p_world.cast<double>() - p_world).squaredNorm();
-        if (distance < nearest_distance) {
+  const Eigen::Vector3i low = BlockOf(voxel - Eigen::Vector3i::Ones());
+  const Eigen::Vector3i high = BlockOf(voxel + Eigen::Vector3i::Ones());
+  Eigen::Vector3i at;
+  for (at.x() = low.x(); at.x() <= high.x(); ++at.x()) {
+    for (at.y() = low.y(); at.y() <= high.y(); ++at.y()) {
+      for (at.z() = low.z(); at.z() <= high.z(); ++at.z()) {
+        const Block& block = BlockAt(at);
+        std::uint64_t open = block.is_occupied & NeighboursIn(at, voxel);
+        for (; open != 0; open &= open - 1) {
+          const std::size_t rank = RankOf(block, std::countr_zero(open));
+          const double distance = (index_.positions_[rank].cast<double>() - p_world).squaredNorm();
+          if (distance >= nearest_distance) continue;
           nearest_distance = distance;
-          nearest = point->index;
+          nearest = index_.indices_[rank];
         }
       }
     }

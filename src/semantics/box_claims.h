@@ -18,10 +18,12 @@ struct BoxClaim {
   std::vector<std::uint32_t> points;  // Of the map's cloud, ascending.
 };
 
-// The claims of a box with this foreground (cells of the view's image), by segment. None of fewer
-// than `min_pixels` points, for they tell nothing.
+// The claims of a box with this foreground (cells of the keyframe's grid) on the segments that
+// `is_asked` tells, by segment. None of fewer than `min_pixels` points, for they tell nothing.
 std::vector<BoxClaim> ClaimsOf(std::span<const std::size_t> foreground,
+                               const SeenKeyframe& keyframe,
                                const KeyframeView& view,
+                               const std::vector<bool>& is_asked,
                                std::uint32_t min_pixels);
 
 // How many points two claims have in common.
@@ -31,5 +33,9 @@ std::size_t CountCommon(const BoxClaim& a, const BoxClaim& b);
 // and what is seen of the segment is mostly theirs. (A board with things on it is not.)
 std::vector<std::pair<std::size_t, std::size_t>> FindRivals(std::span<const BoxClaim> claims,
                                                             const KeyframeView& view);
+
+// Whether two claims on a segment can be rivals, by the most that they can be: their cells in the
+// grid. This needs no claims, and mostly tells.
+bool CanBeRivals(std::uint32_t num_cells_a, std::uint32_t num_cells_b, std::uint32_t num_visible);
 
 }  // namespace semslam

@@ -3,9 +3,7 @@
 #include "semantics/box_foreground.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace semslam {
 namespace {
@@ -42,25 +40,34 @@ DepthRange FindCoreDepth(std::vector<float>& depths) {
   return {};
 }
 
-using Cells = std::vector<std::pair<int, int>>;  // Columns and rows.
-
 // Of the largest patch, cells joined in depth: a smaller one is something else at about the same
 // distance.
 constexpr double kMinPatch = 0.4;
 
-// Grows the foreground from the middle of a box.
+// Grows the foreground from the middle of a box. Works on a copy of the depth in the box, with a
+// frame around it that nothing grows across, so that no step has to ask where the box ends.
 class Grower {
  public:
-  Grower(const SegmentImage& image,
+  Grower(const KeyframeCloud& cloud,
+         const SegmentImage& image,
          const CellRange& box,
          const std::vector<bool>& is_barrier,
          const EvidenceOptions& options)
       : image_(image),
         box_(box),
-        is_barrier_(is_barrier),
         options_(options),
-        patch_of_(static_cast<std::size_t>(box.last_column - box.first_column) *
-                  static_cast<std::size_t>(box.last_row - box.first_row)) {}
+        width_(static_cast<std::size_t>(box.last_column - box.first_column) + 2),
+        depth_(width_ * (static_cast<std::size_t>(box.last_row - box.first_row) + 2), kBarrier),
+        patch_of_(depth_.size()) {
+    for (int row = box.first_row; row < box.last_row; ++row) {
+      std::size_t local = Local(box.first_column, row);
+      for (int column = box.first_column; column < box.last_column; ++column, ++local) {
+        const float z = cloud.DepthAt(column, row);
+        const bool may_belong = z == 0 || !is_barrier[image.segments[image.Cell(column, row)]];
+        if (may_belong) depth_[local] = z;
+      }
+    }
+  }
 
   // Ascending.
   std::vector<std::size_t> Grow() {
@@ -69,8 +76,9 @@ class Grower {
     const auto largest = static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
     std::vector<std::size_t> cells;
     for (int row = box_.first_row; row < box_.last_row; ++row) {
-      for (int column = box_.first_column; column < box_.last_column; ++column) {
-        const std::uint32_t patch = patch_of_[Local(column, row)];
+      std::size_t local = Local(box_.first_column, row);
+      for (int column = box_.first_column; column < box_.last_column; ++column, ++local) {
+        const std::uint32_t patch = patch_of_[local];
         if (patch == 0) continue;
         if (static_cast<double>(sizes[patch - 1]) >= kMinPatch * largest) {
           cells.push_back(image_.Cell(column, row));
@@ -81,88 +89,72 @@ class Grower {
   }
 
  private:
-  bool CanBelong(std::size_t cell) const {
-    return image_.depth[cell] > 0 && !is_barrier_[image_.segments[cell]];
-  }
+  static constexpr float kBarrier = -1;
 
   std::size_t Local(int column, int row) const {
-    const auto width = static_cast<std::size_t>(box_.last_column - box_.first_column);
-    return static_cast<std::size_t>(row - box_.first_row) * width +
-           static_cast<std::size_t>(column - box_.first_column);
-  }
-
-  void Reach(int column, int row) {
-    std::uint32_t& patch = patch_of_[Local(column, row)];
-    if (patch != 0) return;
-    patch = growing_;
-    reached_.emplace_back(column, row);
+    return static_cast<std::size_t>(row - box_.first_row + 1) * width_ +
+           static_cast<std::size_t>(column - box_.first_column + 1);
   }
 
   // One from each seed that no other patch has reached; their sizes.
   std::vector<std::size_t> GrowPatches() {
     std::vector<std::size_t> sizes;
-    for (const auto& [column, row] : Seeds()) {
-      reached_.clear();
-      growing_ = static_cast<std::uint32_t>(sizes.size()) + 1;
-      Reach(column, row);
-      for (std::size_t next = 0; next < reached_.size(); ++next) {
-        const auto [x, y] = reached_[next];
-        Spread(x, y, 1, 0);
-        Spread(x, y, -1, 0);
-        Spread(x, y, 0, 1);
-        Spread(x, y, 0, -1);
+    std::vector<std::size_t> reached;
+    for (const std::size_t seed : Seeds()) {
+      if (patch_of_[seed] != 0) continue;
+      const auto patch = static_cast<std::uint32_t>(sizes.size()) + 1;
+      patch_of_[seed] = patch;
+      reached = {seed};
+      for (std::size_t next = 0; next < reached.size(); ++next) {
+        Spread(reached[next], patch, &reached);
       }
-      if (!reached_.empty()) sizes.push_back(reached_.size());
+      sizes.push_back(reached.size());
     }
     return sizes;
   }
 
-  Cells Seeds() const {
+  std::vector<std::size_t> Seeds() const {
     const CellRange middle = box_.Middle(options_.core_share);
     std::vector<float> depths;
     const auto for_each = [&](const auto& visit) {
       for (int row = middle.first_row; row < middle.last_row; ++row) {
-        for (int column = middle.first_column; column < middle.last_column; ++column) {
-          const std::size_t cell = image_.Cell(column, row);
-          if (CanBelong(cell)) visit(column, row, image_.depth[cell]);
+        const std::size_t first = Local(middle.first_column, row);
+        const std::size_t last = Local(middle.last_column, row);
+        for (std::size_t cell = first; cell < last; ++cell) {
+          if (depth_[cell] > 0) visit(cell);
         }
       }
     };
-    for_each([&](int, int, float z) { depths.push_back(z); });
-    Cells seeds;
+    for_each([&](std::size_t cell) { depths.push_back(depth_[cell]); });
+    std::vector<std::size_t> seeds;
     if (depths.empty()) return seeds;
     const DepthRange core = FindCoreDepth(depths);
-    for_each([&](int column, int row, float z) {
-      if (z >= core.low && z <= core.high) seeds.emplace_back(column, row);
+    for_each([&](std::size_t cell) {
+      if (depth_[cell] >= core.low && depth_[cell] <= core.high) seeds.push_back(cell);
     });
     return seeds;
   }
 
-  // To the next cell with depth in a direction, if it continues the surface.
-  void Spread(int column, int row, int step_column, int step_row) {
-    const float z = image_.depth[image_.Cell(column, row)];
-    for (int distance = 1; distance <= options_.max_hole + 1; ++distance) {
-      const int x = column + distance * step_column;
-      const int y = row + distance * step_row;
-      if (x < box_.first_column || x >= box_.last_column || y < box_.first_row ||
-          y >= box_.last_row) {
-        return;
-      }
-      const std::size_t cell = image_.Cell(x, y);
-      if (image_.depth[cell] <= 0) continue;
-      const double allowed = options_.max_depth_step + options_.depth_step_at_1m * z * z;
-      if (CanBelong(cell) && std::abs(image_.depth[cell] - z) <= allowed) Reach(x, y);
-      return;
+  // To the next cell with depth in each direction, if it continues the surface.
+  void Spread(std::size_t from, std::uint32_t patch, std::vector<std::size_t>* reached) {
+    const float z = depth_[from];
+    const double allowed = options_.max_depth_step + options_.depth_step_at_1m * z * z;
+    for (const std::size_t step : {std::size_t{1}, -std::size_t{1}, width_, -width_}) {
+      std::size_t cell = from + step;
+      for (int hole = 0; depth_[cell] == 0 && hole < options_.max_hole; ++hole) cell += step;
+      if (patch_of_[cell] != 0 || depth_[cell] <= 0) continue;
+      if (!(std::abs(depth_[cell] - z) <= allowed)) continue;
+      patch_of_[cell] = patch;
+      reached->push_back(cell);
     }
   }
 
   const SegmentImage& image_;
   const CellRange box_;
-  const std::vector<bool>& is_barrier_;
   const EvidenceOptions& options_;
-  std::vector<std::uint32_t> patch_of_;  // By cell within the box; 0: not reached.
-  std::uint32_t growing_ = 0;            // The patch that is growing,
-  Cells reached_;                        // and its cells.
+  const std::size_t width_;              // Of the box and its frame,
+  std::vector<float> depth_;             // by cell of which: metres, 0 for none, or kBarrier.
+  std::vector<std::uint32_t> patch_of_;  // The same; 0: not reached.
 };
 
 }  // namespace
@@ -183,12 +175,13 @@ CellRange CellRange::Middle(double share) const {
   return {first_column + columns, last_column - columns, first_row + rows, last_row - rows};
 }
 
-std::vector<std::size_t> FindForeground(const SegmentImage& image,
+std::vector<std::size_t> FindForeground(const KeyframeCloud& cloud,
+                                        const SegmentImage& image,
                                         const CellRange& box,
                                         const std::vector<bool>& is_barrier,
                                         const EvidenceOptions& options) {
   if (box.empty()) return {};
-  return Grower(image, box, is_barrier, options).Grow();
+  return Grower(cloud, image, box, is_barrier, options).Grow();
 }
 
 }  // namespace semslam

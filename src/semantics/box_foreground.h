@@ -14,9 +14,7 @@ namespace semslam {
 struct SegmentImage {
   int columns = 0;
   int rows = 0;
-  std::vector<SegmentId> segments;    // Row by row.
-  std::vector<float> depth;           // Metres; 0: none.
-  std::vector<std::uint32_t> points;  // Index in the map's cloud; only where there is a segment.
+  std::vector<SegmentId> segments;  // Row by row.
 
   std::size_t Cell(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -37,9 +35,11 @@ struct CellRange {
   CellRange Middle(double share) const;
 };
 
-// Cells (numbers into the segment image) inside the box that are connected in depth to its middle.
-// `is_barrier[segment]` tells the segments that cannot belong to the object. Ascending.
-std::vector<std::size_t> FindForeground(const SegmentImage& image,
+// Cells (numbers into the segment image, which belongs to the cloud) inside the box that are
+// connected in depth to its middle. `is_barrier[segment]` tells the segments that cannot belong to
+// the object. Ascending.
+std::vector<std::size_t> FindForeground(const KeyframeCloud& cloud,
+                                        const SegmentImage& image,
                                         const CellRange& box,
                                         const std::vector<bool>& is_barrier,
                                         const EvidenceOptions& options);

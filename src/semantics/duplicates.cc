@@ -39,7 +39,7 @@ bool WereSeenApart(const Evidence& evidence, const SemanticObject& a, const Sema
 
 std::vector<SegmentPair> FindDuplicates(std::span<const SemanticObject> objects,
                                         const MapCloud& cloud,
-                                        const Segmentation& segmentation,
+                                        const SegmentPoints& segment_points,
                                         const Evidence& evidence) {
   std::vector<SegmentPair> candidates;  // Indices of objects: the larger, the smaller.
   for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -54,10 +54,10 @@ std::vector<SegmentPair> FindDuplicates(std::span<const SemanticObject> objects,
   for (const auto& [larger, smaller] : candidates) {
     const std::vector<SegmentId>& parts = objects[smaller].segments;
     std::size_t num_inside = 0;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const bool is_its =
-          std::binary_search(parts.begin(), parts.end(), segmentation.segment_of_point[i]);
-      if (is_its && IsInside(cloud.positions[i], objects[larger].box)) ++num_inside;
+    for (const SegmentId part : parts) {
+      for (const std::uint32_t point : segment_points.Of(part)) {
+        if (IsInside(cloud.positions[point], objects[larger].box)) ++num_inside;
+      }
     }
     const auto size = static_cast<double>(objects[smaller].num_points);
     if (static_cast<double>(num_inside) < kMinShareInside * size) continue;

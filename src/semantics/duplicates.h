@@ -8,6 +8,8 @@
 #include "semslam/dense/map_cloud.h"
 #include "semslam/semantics/semantic_map.h"
 
+#include "semantics/segment_points.h"
+
 namespace semslam {
 
 // Objects of one class that are one thing seen in pieces: most of the smaller one's points are in
@@ -15,7 +17,7 @@ namespace semslam {
 // pair of segments, one of either.
 std::vector<SegmentPair> FindDuplicates(std::span<const SemanticObject> objects,
                                         const MapCloud& cloud,
-                                        const Segmentation& segmentation,
+                                        const SegmentPoints& segment_points,
                                         const Evidence& evidence);
 
 }  // namespace semslam

@@ -30,15 +30,42 @@ struct Overlap {
   double border_factor = 0;  // Sum over the foreground pixels.
 };
 
-// 1 inside, falling linearly to border_weight at the border of the box.
-double BorderFactor(const ImageBox& box, int column, int row, const EvidenceOptions& options) {
-  const double x = column + 0.5;
-  const double y = row + 0.5;
-  const double distance = std::min(std::min<double>(x - box.min_x, box.max_x - x),
-                                   std::min<double>(y - box.min_y, box.max_y - y));
-  const double margin = std::max(1.0, options.border_share * std::min(box.width(), box.height()));
-  const double depth = std::clamp(distance / margin, 0.0, 1.0);
-  return options.border_weight + (1.0 - options.border_weight) * depth;
+// What a box shows, by segment, ascending.
+struct BoxContents {
+  std::vector<std::pair<SegmentId, Overlap>> overlaps;
+  std::uint32_t num_measured = 0;  // Grid cells with depth.
+};
+
+// What pixels of a box count for: 1 inside, falling linearly to border_weight at its border.
+class BorderFactor {
+ public:
+  BorderFactor(const ImageBox& box, const EvidenceOptions& options)
+      : box_(box),
+        margin_(std::max(1.0, options.border_share * std::min(box.width(), box.height()))),
+        border_weight_(options.border_weight) {}
+
+  double At(int column, int row) const {
+    const double x = column + 0.5;
+    const double y = row + 0.5;
+    const double distance = std::min(std::min<double>(x - box_.min_x, box_.max_x - x),
+                                     std::min<double>(y - box_.min_y, box_.max_y - y));
+    // Most are inside, and a division takes its time.
+    const double depth = distance >= margin_ ? 1.0 : std::max(distance / margin_, 0.0);
+    return border_weight_ + (1.0 - border_weight_) * depth;
+  }
+
+ private:
+  const ImageBox box_;
+  const double margin_;
+  const double border_weight_;
+};
+
+// The segment that at least half of the measured cells of a box show; 0: none.
+SegmentId FindFilling(const BoxContents& contents) {
+  for (const auto& [segment, overlap] : contents.overlaps) {
+    if (2 * overlap.num_inside >= contents.num_measured) return segment;
+  }
+  return 0;
 }
 
 // One keyframe's evidence, kept apart until all its boxes are known.
@@ -53,19 +80,28 @@ class KeyframeJudge {
         classes_(classes),
         options_(options),
         view_(DrawSegments(keyframe, segmentation)),
-        largest_inside_share_(segmentation.segments.size() + 1) {
-    for (const Detection& detection : keyframe_.detections) JudgeBox(detection);
-    view_.image = {};  // Large, and of all keyframes there is a judge at once.
+        largest_inside_share_(view_.visibility.size()),
+        overlap_of_(view_.visibility.size()),
+        largest_claims_(view_.visibility.size()) {
+    foregrounds_.reserve(keyframe_.detections.size());
+    for (std::size_t i = 0; i < keyframe_.detections.size(); ++i) JudgeBox(i);
+    FindParted();
+    // Large, and of all keyframes there is a judge at once.
+    view_.image = {};
+    foregrounds_ = {};
   }
 
-  void AddTo(Evidence& evidence) const {
+  // `place`: of the keyframe among all.
+  void AddTo(std::size_t place, Evidence& evidence) const {
     for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
       if (IsSeen(segment, options_.min_visible_share)) ++evidence.segments[segment - 1].num_seen;
     }
     AddBest(evidence);
     AddBackground(evidence);
-    AddParted(evidence);
-    for (const SegmentAndClass& box : filled_) ++evidence.num_filled_boxes[box];
+    for (const SegmentId segment : parted_) ++evidence.segments[segment - 1].num_parted;
+    for (const auto& [subject, detection] : filled_) {
+      evidence.filled_boxes[subject].push_back({place, detection});
+    }
   }
 
  private:
@@ -83,43 +119,63 @@ class KeyframeJudge {
            visible.area >= min_share * SegmentOf(segment).area;
   }
 
-  std::map<SegmentId, Overlap> MeasureOverlaps(const Detection& detection,
-                                               const CellRange& range,
-                                               const std::vector<std::size_t>& foreground) const {
-    std::map<SegmentId, Overlap> overlaps;
+  // What is in the box, without the foreground.
+  BoxContents CountInside(const CellRange& range) {
+    BoxContents contents;
+    std::vector<SegmentId> seen;
     for (int row = range.first_row; row < range.last_row; ++row) {
       for (int column = range.first_column; column < range.last_column; ++column) {
+        if (keyframe_.cloud->DepthAt(column, row) > 0) ++contents.num_measured;
         const SegmentId segment = view_.image.segments[view_.image.Cell(column, row)];
-        if (segment != 0) ++overlaps[segment].num_inside;
+        if (segment != 0 && overlap_of_[segment].num_inside++ == 0) seen.push_back(segment);
       }
     }
-    const int stride = keyframe_.cloud->stride();
-    for (const std::size_t cell : foreground) {
-      if (view_.image.segments[cell] == 0) continue;
-      Overlap& overlap = overlaps[view_.image.segments[cell]];
-      const int column = static_cast<int>(cell % static_cast<std::size_t>(view_.image.columns));
-      const int row = static_cast<int>(cell / static_cast<std::size_t>(view_.image.columns));
-      ++overlap.num_foreground;
-      overlap.border_factor += BorderFactor(detection.box, column * stride, row * stride, options_);
-    }
-    return overlaps;
+    std::sort(seen.begin(), seen.end());
+    for (const SegmentId segment : seen) contents.overlaps.emplace_back(segment, Overlap());
+    return contents;
   }
 
-  void JudgeBox(const Detection& detection) {
+  BoxContents MeasureContents(const Detection& detection,
+                              const CellRange& range,
+                              const std::vector<std::size_t>& foreground) {
+    BoxContents contents = CountInside(range);
+    const int stride = keyframe_.cloud->stride();
+    const BorderFactor border_factor(detection.box, options_);
+    const auto columns = static_cast<std::size_t>(view_.image.columns);
+    int row = range.first_row;
+    std::size_t row_begin = view_.image.Cell(0, row);
+    for (const std::size_t cell : foreground) {
+      for (; cell >= row_begin + columns; row_begin += columns) ++row;
+      if (view_.image.segments[cell] == 0) continue;
+      Overlap& overlap = overlap_of_[view_.image.segments[cell]];
+      const int column = static_cast<int>(cell - row_begin);
+      ++overlap.num_foreground;
+      overlap.border_factor += border_factor.At(column * stride, row * stride);
+    }
+    for (auto& [segment, overlap] : contents.overlaps) {
+      overlap = std::exchange(overlap_of_[segment], Overlap());
+    }
+    return contents;
+  }
+
+  // `place`: of the box in its keyframe.
+  void JudgeBox(std::size_t place) {
+    const Detection& detection = keyframe_.detections[place];
     const CellRange range = CellRange::Of(detection.box, keyframe_.cloud->stride(),
                                           view_.image.columns, view_.image.rows);
     if (range.empty()) return;
-    const std::vector<std::size_t> foreground = FindForeground(
-        view_.image, range, FindBarriers(segmentation_, classes_, detection.class_id), options_);
-    for (BoxClaim& claim : ClaimsOf(foreground, view_, options_.min_pixels)) {
-      claims_.push_back(std::move(claim));
-    }
-    const SegmentId filling = FindFilling(view_.image, range);
+    foregrounds_.push_back(FindForeground(*keyframe_.cloud, view_.image, range,
+                                          FindBarriers(segmentation_, classes_, detection.class_id),
+                                          options_));
+    const std::vector<std::size_t>& foreground = foregrounds_.back();
+    const BoxContents contents = MeasureContents(detection, range, foreground);
+    const SegmentId filling = FindFilling(contents);
     if (filling != 0 && !CanBe(SegmentOf(filling), classes_, detection.class_id)) {
-      filled_.emplace_back(filling, detection.class_id);
+      filled_.emplace_back(SegmentAndClass(filling, detection.class_id), place);
     }
     std::vector<SegmentId> held;
-    for (const auto& [segment, overlap] : MeasureOverlaps(detection, range, foreground)) {
+    for (const auto& [segment, overlap] : contents.overlaps) {
+      NoteClaim(segment, overlap.num_foreground);
       const double inside_share =
           double(overlap.num_inside) / double(view_.visibility[segment].num_pixels);
       largest_inside_share_[segment] = std::max(largest_inside_share_[segment], inside_share);
@@ -134,15 +190,20 @@ class KeyframeJudge {
         held.push_back(segment);
       }
     }
+    NotePairs(detection.class_id, std::move(held));
+  }
+
+  // `held`: by one box, ascending.
+  void NotePairs(int box_class, std::vector<SegmentId> held) {
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = i + 1; j < held.size(); ++j) {
-        shared_.emplace(held[i], held[j]);  // The map's order: held is ascending.
+        shared_.emplace(held[i], held[j]);
       }
     }
     for (const auto& [class_id, others] : held_by_boxes_) {
-      if (class_id == detection.class_id) AddPairs(held, others, &separate_);
+      if (class_id == box_class) AddPairs(held, others, &separate_);
     }
-    held_by_boxes_.emplace_back(detection.class_id, std::move(held));
+    held_by_boxes_.emplace_back(box_class, std::move(held));
   }
 
   static void AddPairs(const std::vector<SegmentId>& some,
@@ -183,6 +244,7 @@ class KeyframeJudge {
     for (const auto& [segment, gain] : gains_) {
       SegmentEvidence& sums = evidence.segments[segment - 1];
       for (std::size_t c = 0; c < classes_.size(); ++c) {
+        if (gain.part_alpha[c] <= 0) continue;  // Most are not: alpha is never more.
         sums.alpha[c] += ToUnits(gain.alpha[c]);
         sums.part_alpha[c] += ToUnits(gain.part_alpha[c]);
         if (gain.is_seen_as[c]) ++sums.num_views[c];
@@ -211,12 +273,30 @@ class KeyframeJudge {
     }
   }
 
-  void AddParted(Evidence& evidence) const {
-    std::set<SegmentId> parted;
-    for (const auto& [first, second] : FindRivals(claims_, view_)) {
-      parted.insert(claims_[first].segment);
+  void NoteClaim(SegmentId segment, std::uint32_t num_cells) {
+    auto& [largest, second] = largest_claims_[segment];
+    second = std::max(second, std::min(largest, num_cells));
+    largest = std::max(largest, num_cells);
+  }
+
+  // Looks at the points of those claims only that can be rivals.
+  void FindParted() {
+    std::vector<bool> is_asked(view_.visibility.size(), false);
+    for (SegmentId segment = 1; segment < view_.visibility.size(); ++segment) {
+      const auto& [largest, second] = largest_claims_[segment];
+      is_asked[segment] = second >= options_.min_pixels &&
+                          CanBeRivals(largest, second, view_.visibility[segment].num_pixels);
     }
-    for (const SegmentId segment : parted) ++evidence.segments[segment - 1].num_parted;
+    std::vector<BoxClaim> claims;
+    for (const std::vector<std::size_t>& foreground : foregrounds_) {
+      for (BoxClaim& claim :
+           ClaimsOf(foreground, keyframe_, view_, is_asked, options_.min_pixels)) {
+        claims.push_back(std::move(claim));
+      }
+    }
+    for (const auto& [first, second] : FindRivals(claims, view_)) {
+      parted_.insert(claims[first].segment);
+    }
   }
 
   const SeenKeyframe& keyframe_;
@@ -226,8 +306,13 @@ class KeyframeJudge {
   KeyframeView view_;
   std::vector<double> largest_inside_share_;  // By segment id, over all boxes.
   std::map<SegmentId, Gain> gains_;
-  std::vector<BoxClaim> claims_;         // Of all boxes.
-  std::vector<SegmentAndClass> filled_;  // Boxes filled by what their thing cannot be.
+  std::vector<Overlap> overlap_of_;                    // By segment, of the box that is looked at.
+  std::vector<std::vector<std::size_t>> foregrounds_;  // Of all boxes.
+  // By segment, over all boxes: the most cells of it in a foreground, and the second most.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> largest_claims_;
+  std::set<SegmentId> parted_;  // By two boxes.
+  // Boxes filled by what their thing cannot be, by their places.
+  std::vector<std::pair<SegmentAndClass, std::size_t>> filled_;
   std::vector<std::pair<int, std::vector<SegmentId>>> held_by_boxes_;  // With the box's class.
   std::set<SegmentPair> shared_;                                       // By one box.
   std::set<SegmentPair> separate_;                                     // By two of one class.
@@ -269,7 +354,7 @@ Evidence CollectEvidence(std::span<const SeenKeyframe> keyframes,
       judges[i].emplace(keyframes[i], segmentation, classes, options);
     }
   });
-  for (const std::optional<KeyframeJudge>& judge : judges) judge->AddTo(evidence);
+  for (std::size_t i = 0; i < judges.size(); ++i) judges[i]->AddTo(i, evidence);
   return evidence;
 }
 

@@ -3,143 +3,88 @@
 #include "semantics/flat_things.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "semslam/base/random.h"
-#include "semslam/dense/voxel_index.h"
 #include "semslam/geometry/plane.h"
 
+#include "semantics/cell_votes.h"
 #include "semantics/evenly_chosen.h"
 #include "semantics/keyframe_view.h"
+#include "semantics/segment_cells.h"
 #include "semantics/segment_parts.h"
+#include "semantics/segment_points.h"
 
 namespace semslam {
 namespace {
 
-constexpr float kCellSize = 0.02F;             // Metres; votes are counted by cells of that size.
-constexpr std::uint32_t kMinVotes = 3;         // Keyframes whose box holds a cell.
-constexpr std::uint32_t kMinVotesInReach = 2;  // One box alone may be wrong.
-constexpr double kMinShareOfVotesInReach = 0.25;
-constexpr double kMinShareOfVotes = 0.5;   // Of the most voted cell of the same thing.
 constexpr double kMinHeight = 0.006;       // Metres above the surface around,
 constexpr double kMinHeightInNoise = 2.5;  // and in median deviations of that.
 constexpr std::size_t kMinPoints = 30;     // Of a thing,
 constexpr double kMinRaised = 0.25;        // and as a share of the points in its place.
 
-using Cell = std::array<int, 3>;
-using Votes = std::map<Cell, std::uint32_t>;
-
-Cell CellOf(const Eigen::Vector3f& p) {
-  return {static_cast<int>(std::floor(p.x() / kCellSize)),
-          static_cast<int>(std::floor(p.y() / kCellSize)),
-          static_cast<int>(std::floor(p.z() / kCellSize))};
-}
-
-template <typename Visit>
-void ForEachNeighbour(const Cell& cell, const Visit& visit) {
-  for (int x = -1; x <= 1; ++x) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int z = -1; z <= 1; ++z) visit(Cell{cell[0] + x, cell[1] + y, cell[2] + z});
-    }
-  }
-}
-
-// The cells in which a keyframe sees the segment inside a box.
-std::set<Cell> CellsInBox(SegmentId segment,
-                          const CellRange& box,
-                          const SegmentImage& image,
-                          const MapCloud& cloud) {
-  std::set<Cell> cells;
-  for (int row = box.first_row; row < box.last_row; ++row) {
-    for (int column = box.first_column; column < box.last_column; ++column) {
-      const std::size_t pixel = image.Cell(column, row);
-      if (image.segments[pixel] != segment) continue;
-      cells.insert(CellOf(cloud.positions[image.points[pixel]]));
+// The cells in which a keyframe sees the segment inside a box; many of them several times.
+std::vector<Cell> CellsInBox(SegmentId segment,
+                             const ImageBox& box,
+                             const SeenKeyframe& keyframe,
+                             const MapCloud& cloud,
+                             const Segmentation& segmentation) {
+  const int columns = keyframe.cloud->grid_columns();
+  const CellRange range =
+      CellRange::Of(box, keyframe.cloud->stride(), columns, keyframe.cloud->grid_rows());
+  std::vector<Cell> cells;
+  for (int row = range.first_row; row < range.last_row; ++row) {
+    for (int column = range.first_column; column < range.last_column; ++column) {
+      const std::uint32_t point = keyframe.points[static_cast<std::size_t>(row * columns + column)];
+      if (point == kNoPoint || segmentation.segment_of_point[point] != segment) continue;
+      const Cell cell = CellOf(cloud.positions[point]);
+      if (cells.empty() || cells.back() != cell) cells.push_back(cell);
     }
   }
   return cells;
 }
 
-std::map<SegmentAndClass, Votes> CountVotes(const MapCloud& cloud,
-                                            const Segmentation& segmentation,
-                                            std::span<const SeenKeyframe> keyframes,
-                                            const std::set<SegmentAndClass>& subjects) {
-  std::map<SegmentAndClass, Votes> votes;
-  for (const SeenKeyframe& keyframe : keyframes) {
-    if (keyframe.detections.empty()) continue;
-    const KeyframeView view = DrawSegments(keyframe, segmentation);
-    for (const Detection& detection : keyframe.detections) {
-      const CellRange box = CellRange::Of(detection.box, keyframe.cloud->stride(),
-                                          view.image.columns, view.image.rows);
-      const SegmentAndClass subject(FindFilling(view.image, box), detection.class_id);
-      if (!subjects.contains(subject)) continue;
-      for (const Cell& cell : CellsInBox(subject.first, box, view.image, cloud))
-        ++votes[subject][cell];
-    }
+CellVotes CountVotes(SegmentId segment,
+                     std::span<const BoxPlace> boxes,
+                     const MapCloud& cloud,
+                     const Segmentation& segmentation,
+                     std::span<const SeenKeyframe> keyframes) {
+  CellVotes votes;
+  for (const BoxPlace& place : boxes) {
+    const SeenKeyframe& keyframe = keyframes[place.keyframe];
+    const ImageBox& box = keyframe.detections[place.detection].box;
+    votes.AddBox(CellsInBox(segment, box, keyframe, cloud, segmentation));
   }
   return votes;
 }
 
-// The cells that can be reached from `start` by steps that `may_step` allows.
-template <typename MayStep>
-std::set<Cell> Flood(const Cell& start, const Votes& votes, const MayStep& may_step) {
-  std::set<Cell> reached = {start};
-  std::vector<Cell> open = {start};
-  while (!open.empty()) {
-    const auto from = votes.find(open.back());
-    open.pop_back();
-    ForEachNeighbour(from->first, [&](const Cell& next) {
-      const auto to = votes.find(next);
-      if (to == votes.end() || !may_step(from->second, to->second)) return;
-      if (reached.insert(next).second) open.push_back(next);
-    });
+// How many points lie near the plane; 0 as soon as it is clear that they are not more than `most`.
+std::size_t CountNear(std::span<const Eigen::Vector3d> points,
+                      const Plane& plane,
+                      std::size_t most) {
+  constexpr double kTolerance = 0.004;
+  constexpr std::size_t kAtOnce = 64;
+  std::size_t count = 0;
+  while (!points.empty()) {
+    if (count + points.size() <= most) return 0;
+    const auto some = points.first(std::min(kAtOnce, points.size()));
+    for (const Eigen::Vector3d& p : some) {
+      count += std::abs(plane.SignedDistance(p)) <= kTolerance ? 1 : 0;
+    }
+    points = points.subspan(some.size());
   }
-  return reached;
-}
-
-// Where a thing lies.
-struct Place {
-  std::set<Cell> core;   // Cells that most of its boxes hold,
-  std::set<Cell> reach;  // and all that some do: downhill from the core.
-};
-
-// The place around the most voted cell; and removes its votes. Nothing if no cell has enough.
-std::optional<Place> TakePlace(Votes* votes) {
-  const auto best =
-      std::max_element(votes->begin(), votes->end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (best == votes->end() || best->second < kMinVotes) return std::nullopt;
-  const double min_votes =
-      std::max<double>(kMinVotes, kMinShareOfVotes * static_cast<double>(best->second));
-  const double min_reach = std::max<double>(
-      kMinVotesInReach, kMinShareOfVotesInReach * static_cast<double>(best->second));
-  Place place;
-  place.core =
-      Flood(best->first, *votes, [&](std::uint32_t, std::uint32_t to) { return to >= min_votes; });
-  place.reach = Flood(best->first, *votes, [&](std::uint32_t from, std::uint32_t to) {
-    return to >= min_reach && (to <= from || to >= min_votes);
-  });
-  const std::set<Cell> slope =
-      Flood(best->first, *votes,
-            [&](std::uint32_t from, std::uint32_t to) { return to <= from || to >= min_votes; });
-  for (const Cell& cell : slope) votes->erase(cell);
-  return place;
+  return count;
 }
 
 // The plane that most of the points lie near: what is around a thing, whatever else lies there.
-std::optional<Plane> FindSurface(const std::vector<Eigen::Vector3f>& around,
+std::optional<Plane> FindSurface(const std::vector<Eigen::Vector3d>& around,
                                  const Eigen::Vector3d& towards_viewer) {
-  constexpr double kTolerance = 0.004;
   constexpr int kNumTrials = 200;
   constexpr double kMinTriangle = 1e-4;  // Square metres.
   Random random(1);
@@ -147,18 +92,15 @@ std::optional<Plane> FindSurface(const std::vector<Eigen::Vector3f>& around,
   std::size_t most = 0;
   const auto size = static_cast<std::uint32_t>(around.size());
   for (int trial = 0; trial < kNumTrials && size >= kMinPoints; ++trial) {
-    const Eigen::Vector3d a = around[random.Index(size)].cast<double>();
-    const Eigen::Vector3d b = around[random.Index(size)].cast<double>();
-    const Eigen::Vector3d c = around[random.Index(size)].cast<double>();
+    const Eigen::Vector3d a = around[random.Index(size)];
+    const Eigen::Vector3d b = around[random.Index(size)];
+    const Eigen::Vector3d c = around[random.Index(size)];
     Eigen::Vector3d normal = (b - a).cross(c - a);
     if (normal.norm() < kMinTriangle) continue;
     normal.normalize();
     if (normal.dot(towards_viewer) < 0) normal = -normal;
     const Plane plane{normal, -normal.dot(a)};
-    const auto num_near = static_cast<std::size_t>(
-        std::count_if(around.begin(), around.end(), [&](const Eigen::Vector3f& p) {
-          return std::abs(plane.SignedDistance(p.cast<double>())) <= kTolerance;
-        }));
+    const std::size_t num_near = CountNear(around, plane, most);
     if (num_near <= most) continue;
     most = num_near;
     best = plane;
@@ -167,11 +109,11 @@ std::optional<Plane> FindSurface(const std::vector<Eigen::Vector3f>& around,
 }
 
 // Of the points that may be the surface's.
-double MedianDeviation(const std::vector<Eigen::Vector3f>& points, const Plane& plane) {
+double MedianDeviation(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
   constexpr double kFar = 0.008;  // Metres.
   std::vector<double> deviations;
-  for (const Eigen::Vector3f& p : points) {
-    const double deviation = std::abs(plane.SignedDistance(p.cast<double>()));
+  for (const Eigen::Vector3d& p : points) {
+    const double deviation = std::abs(plane.SignedDistance(p));
     if (deviation <= kFar) deviations.push_back(deviation);
   }
   const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
@@ -179,102 +121,88 @@ double MedianDeviation(const std::vector<Eigen::Vector3f>& points, const Plane& 
   return *middle;
 }
 
-struct CellHash {
-  std::size_t operator()(const Cell& cell) const {
-    return VoxelKey::Hash(VoxelKey::Pack({cell[0], cell[1], cell[2]}));
+// Cells of the segment within `reach` cells of a place, without the place itself. Ascending.
+std::vector<Cell> CellsAround(const std::vector<Cell>& place,
+                              const SegmentCells& contents,
+                              int reach) {
+  std::vector<bool> is_known(contents.size(), false);
+  for (const Cell cell : place) {
+    const std::uint32_t number = contents.NumberOf(cell);
+    if (number != KeyNumbers::kNone) is_known[number] = true;
   }
-};
-
-// One segment's points by cell; never visited in the table's order.
-using Contents = std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash>;
-
-Contents ContentsOf(SegmentId segment, const MapCloud& cloud, const Segmentation& segmentation) {
-  Contents contents;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (segmentation.segment_of_point[i] != segment) continue;
-    contents[CellOf(cloud.positions[i])].push_back(static_cast<std::uint32_t>(i));
-  }
-  return contents;
-}
-
-// `points`: ascending.
-void TakeOut(const std::vector<std::uint32_t>& points, const MapCloud& cloud, Contents* contents) {
-  std::set<Cell> cells;
-  for (const std::uint32_t point : points) cells.insert(CellOf(cloud.positions[point]));
-  for (const Cell& cell : cells) {
-    const auto content = contents->find(cell);
-    std::erase_if(content->second, [&](std::uint32_t point) {
-      return std::binary_search(points.begin(), points.end(), point);
-    });
-    if (content->second.empty()) contents->erase(content);
-  }
-}
-
-std::vector<std::uint32_t> PointsIn(const std::set<Cell>& cells, const Contents& contents) {
-  std::vector<std::uint32_t> points;
-  for (const Cell& cell : cells) {
-    const auto found = contents.find(cell);
-    if (found == contents.end()) continue;
-    points.insert(points.end(), found->second.begin(), found->second.end());
-  }
-  return points;
-}
-
-// Cells of the segment within `reach` cells of a place, without the place itself.
-std::set<Cell> CellsAround(const std::set<Cell>& place, const Contents& contents, int reach) {
-  std::set<Cell> all = place;
-  std::vector<Cell> border(place.begin(), place.end());
-  std::set<Cell> around;
+  std::vector<Cell> border = place;
+  std::vector<Cell> around;
   for (int step = 0; step < reach; ++step) {
     std::vector<Cell> next_border;
-    for (const Cell& cell : border) {
-      ForEachNeighbour(cell, [&](const Cell& next) {
-        if (!contents.contains(next) || !all.insert(next).second) return;
-        around.insert(next);
+    for (const Cell cell : border) {
+      ForEachNeighbour(cell, [&](Cell next) {
+        const std::uint32_t number = contents.NumberOf(next);
+        if (number == KeyNumbers::kNone || is_known[number]) return;
+        is_known[number] = true;
         next_border.push_back(next);
       });
     }
+    around.insert(around.end(), next_border.begin(), next_border.end());
     border = std::move(next_border);
   }
+  std::sort(around.begin(), around.end());
   return around;
 }
 
-// All points of the cells that are raised, as they and the cells around them tell, so that noise
-// neither tears holes nor leaves crumbs. Ascending.
-template <typename IsRaised>
-std::vector<std::uint32_t> PointsOfRaisedCells(const std::set<Cell>& cells,
-                                               const Contents& contents,
-                                               const IsRaised& is_raised) {
-  const auto share_of = [&](const std::set<Cell>& some) {
-    const std::vector<std::uint32_t> points = PointsIn(some, contents);
-    return points.empty()
-               ? 0.0
-               : static_cast<double>(std::count_if(points.begin(), points.end(), is_raised)) /
-                     static_cast<double>(points.size());
-  };
-  std::set<Cell> raised;
-  for (const Cell& cell : cells) {
-    std::set<Cell> neighbourhood;
-    ForEachNeighbour(cell, [&](const Cell& next) { neighbourhood.insert(next); });
-    if (share_of({cell}) + share_of(neighbourhood) >= 1.0) raised.insert(cell);
+// How many points of a cell, or of some, are raised.
+struct Raised {
+  std::size_t num_raised = 0;
+  std::size_t num_points = 0;
+
+  double Share() const {
+    return num_points == 0 ? 0.0
+                           : static_cast<double>(num_raised) / static_cast<double>(num_points);
   }
-  std::vector<std::uint32_t> points = PointsIn(raised, contents);
-  std::sort(points.begin(), points.end());
-  return points;
+};
+
+// The cells that are raised, as they and the cells around them tell, so that noise neither tears
+// holes nor leaves crumbs.
+template <typename IsRaised>
+std::vector<Cell> FindRaisedCells(const std::vector<Cell>& cells,
+                                  const SegmentCells& contents,
+                                  const IsRaised& is_raised) {
+  std::vector<std::optional<Raised>> counted(contents.size());
+  const auto count = [&](std::uint32_t number) {
+    std::optional<Raised>& own = counted[number];
+    if (!own) {
+      const std::span<const std::uint32_t> points = contents.PointsAt(number);
+      const auto num_raised = std::count_if(points.begin(), points.end(), is_raised);
+      own = {static_cast<std::size_t>(num_raised), points.size()};
+    }
+    return *own;
+  };
+  std::vector<Cell> raised;
+  for (const Cell cell : cells) {
+    const std::uint32_t number = contents.NumberOf(cell);
+    if (number == KeyNumbers::kNone) continue;
+    Raised neighbourhood;
+    ForEachNeighbour(cell, [&](Cell next) {
+      const std::uint32_t neighbour = contents.NumberOf(next);
+      if (neighbour == KeyNumbers::kNone) return;
+      neighbourhood.num_raised += count(neighbour).num_raised;
+      neighbourhood.num_points += count(neighbour).num_points;
+    });
+    if (count(number).Share() + neighbourhood.Share() >= 1.0) raised.push_back(cell);
+  }
+  return raised;
 }
 
-// The points of a place that rise above the surface around it; none if they are too few to be a
+// The cells of a place that rise above the surface around it; none if they are too few to be a
 // thing.
-std::vector<std::uint32_t> FindThing(const Place& place,
-                                     const Contents& contents,
-                                     const MapCloud& cloud) {
+std::vector<Cell> FindThing(const Place& place,
+                            const SegmentCells& contents,
+                            const MapCloud& cloud) {
   constexpr int kReachOfSurface = 5;  // Cells around a place.
   constexpr std::size_t kMaxPointsOfSurface = 2000;
-  const std::vector<std::uint32_t> inside = PointsIn(place.core, contents);
-  std::vector<Eigen::Vector3f> around;
-  for (const std::uint32_t point :
-       PointsIn(CellsAround(place.core, contents, kReachOfSurface), contents))
-    around.push_back(cloud.positions[point]);
+  const std::vector<std::uint32_t> inside = contents.PointsIn(place.core);
+  if (inside.size() < kMinPoints) return {};
+  const std::vector<Eigen::Vector3d> around =
+      PositionsOf(contents.PointsIn(CellsAround(place.core, contents, kReachOfSurface)), cloud);
   Eigen::Vector3d towards_viewer = Eigen::Vector3d::Zero();
   for (const std::uint32_t point : inside) towards_viewer += cloud.normals[point].cast<double>();
   const std::optional<Plane> surface =
@@ -289,7 +217,37 @@ std::vector<std::uint32_t> FindThing(const Place& place,
   if (num_raised < static_cast<std::ptrdiff_t>(kMinPoints) ||
       static_cast<double>(num_raised) < kMinRaised * static_cast<double>(inside.size()))
     return {};
-  return PointsOfRaisedCells(place.reach, contents, is_raised);
+  return FindRaisedCells(place.reach, contents, is_raised);
+}
+
+// Takes the things that boxes of one class tell out of a segment's contents. Adds the points of
+// each, ascending.
+void TakeThings(CellVotes votes,
+                const MapCloud& cloud,
+                SegmentCells* contents,
+                std::vector<std::vector<std::uint32_t>>* things) {
+  while (const std::optional<Place> place = votes.TakePlace()) {
+    const std::vector<Cell> cells = FindThing(*place, *contents, cloud);
+    std::vector<std::uint32_t> thing = contents->PointsIn(cells);
+    if (thing.size() < kMinPoints) continue;
+    std::sort(thing.begin(), thing.end());
+    things->push_back(std::move(thing));
+    contents->TakeOut(cells);
+  }
+}
+
+// For each segment the boxes of every class that enough of them filled with it.
+using BoxesByClass = std::vector<std::span<const BoxPlace>>;
+std::map<SegmentId, BoxesByClass> FindSubjects(const Evidence& evidence,
+                                               const ClassTable& classes) {
+  std::map<SegmentId, BoxesByClass> subjects;
+  for (const auto& [subject, boxes] : evidence.filled_boxes) {
+    const auto& [segment, class_id] = subject;
+    if (boxes.size() >= kMinVotes && classes.is_of_interest(class_id)) {
+      subjects[segment].push_back(boxes);
+    }
+  }
+  return subjects;
 }
 
 }  // namespace
@@ -299,24 +257,17 @@ std::optional<Segmentation> TakeOutFlatThings(const MapCloud& cloud,
                                               std::span<const SeenKeyframe> keyframes,
                                               const Evidence& evidence,
                                               const ClassTable& classes) {
-  std::set<SegmentAndClass> subjects;
-  for (const auto& [subject, num_boxes] : evidence.num_filled_boxes) {
-    if (num_boxes >= kMinVotes && classes.is_of_interest(subject.second)) subjects.insert(subject);
-  }
-  if (subjects.empty()) return std::nullopt;
   std::optional<Segmentation> result;
-  std::map<SegmentId, Contents> contents_of;
-  for (auto& [subject, votes] : CountVotes(cloud, segmentation, keyframes, subjects)) {
-    const auto [entry, is_new] = contents_of.try_emplace(subject.first);
-    Contents& contents = entry->second;
-    if (is_new) contents = ContentsOf(subject.first, cloud, segmentation);
-    while (const std::optional<Place> place = TakePlace(&votes)) {
-      const std::vector<std::uint32_t> thing = FindThing(*place, contents, cloud);
-      if (thing.size() < kMinPoints) continue;
-      if (!result) result = segmentation;
-      MakeSegment(thing, subject.first, cloud, &*result);
-      TakeOut(thing, cloud, &contents);
+  for (const auto& [segment, boxes_by_class] : FindSubjects(evidence, classes)) {
+    SegmentCells contents(segment, cloud, segmentation);
+    std::vector<std::vector<std::uint32_t>> things;
+    for (const std::span<const BoxPlace> boxes : boxes_by_class) {
+      TakeThings(CountVotes(segment, boxes, cloud, segmentation, keyframes), cloud, &contents,
+                 &things);
     }
+    if (things.empty()) continue;
+    if (!result) result = segmentation;
+    MakeSegments(things, segment, cloud, &*result);
   }
   return result;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <optional>
 
 #include "semslam/base/check.h"
 #include "semslam/base/parallel.h"
@@ -14,10 +14,9 @@ namespace {
 
 constexpr double kMinCosine = 0.2;  // Of slanted views, when pixels are turned into areas.
 
-// Of the surface that a grid cell shows, square metres.
-float AreaOf(const KeyframePoint& point, const KeyframeCloud& cloud) {
-  const double side =
-      static_cast<double>(cloud.pixel_angle()) * cloud.stride() * point.p_camera.z();
+// Of the surface that a grid cell of this size at 1 m shows, square metres.
+float AreaOf(const KeyframePoint& point, double size_at_1m) {
+  const double side = size_at_1m * point.p_camera.z();
   const double cosine = -point.n_camera.dot(point.p_camera.normalized());
   return static_cast<float>(side * side / std::max(cosine, kMinCosine));
 }
@@ -31,12 +30,15 @@ SeenKeyframe FindSeenPoints(const LabelledKeyframe& keyframe,
   seen.cloud = keyframe.cloud;
   seen.detections =
       Sanitise(keyframe.detections, classes.size(), cloud.image_width(), cloud.image_height());
-  seen.points.reserve(cloud.num_points());
-  seen.areas.reserve(cloud.num_points());
-  cloud.ForEach([&](const KeyframePoint& point) {
-    const auto found = index.Find(keyframe.T_world_camera * point.p_camera.cast<double>());
-    seen.points.push_back(found.value_or(kNoPoint));
-    seen.areas.push_back(AreaOf(point, cloud));
+  seen.points.assign(cloud.num_cells(), kNoPoint);
+  seen.areas.resize(cloud.num_cells());
+  const double size_at_1m = static_cast<double>(cloud.pixel_angle()) * cloud.stride();
+  VoxelIndex::Finder finder(index);
+  cloud.ForEachCell([&](std::size_t cell, const KeyframePoint& point) {
+    const auto in_map = finder.Find(keyframe.T_world_camera * point.p_camera.cast<double>());
+    if (!in_map) return;
+    seen.points[cell] = *in_map;
+    seen.areas[cell] = AreaOf(point, size_at_1m);
   });
   return seen;
 }
@@ -56,53 +58,20 @@ std::vector<SeenKeyframe> FindSeenPoints(std::span<const LabelledKeyframe> keyfr
 }
 
 KeyframeView DrawSegments(const SeenKeyframe& keyframe, const Segmentation& segmentation) {
-  const KeyframeCloud& cloud = *keyframe.cloud;
   KeyframeView view;
-  SegmentImage& image = view.image;
-  image.columns = cloud.grid_columns();
-  image.rows = cloud.grid_rows();
-  const auto num_cells =
-      static_cast<std::size_t>(image.columns) * static_cast<std::size_t>(image.rows);
-  image.depth.assign(num_cells, 0.0F);
-  image.points.assign(num_cells, kNoPoint);
-  image.segments.assign(num_cells, 0);
+  view.image.columns = keyframe.cloud->grid_columns();
+  view.image.rows = keyframe.cloud->grid_rows();
+  view.image.segments.assign(keyframe.points.size(), 0);
   view.visibility.resize(segmentation.segments.size() + 1);
-  std::size_t point = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    for (int column = 0; column < image.columns; ++column) {
-      const float depth = cloud.DepthAt(column, row);
-      if (depth == 0) continue;
-      const std::uint32_t in_map = keyframe.points[point];
-      const float area = keyframe.areas[point++];
-      const std::size_t cell = image.Cell(column, row);
-      image.depth[cell] = depth;
-      if (in_map == kNoPoint) continue;
-      image.points[cell] = in_map;
-      const SegmentId segment = segmentation.segment_of_point[in_map];
-      if (segment == 0) continue;
-      image.segments[cell] = segment;
-      view.visibility[segment].area += static_cast<double>(area);
-      ++view.visibility[segment].num_pixels;
-    }
+  for (std::size_t cell = 0; cell < keyframe.points.size(); ++cell) {
+    if (keyframe.points[cell] == kNoPoint) continue;
+    const SegmentId segment = segmentation.segment_of_point[keyframe.points[cell]];
+    if (segment == 0) continue;
+    view.image.segments[cell] = segment;
+    view.visibility[segment].area += static_cast<double>(keyframe.areas[cell]);
+    ++view.visibility[segment].num_pixels;
   }
   return view;
-}
-
-SegmentId FindFilling(const SegmentImage& image, const CellRange& box) {
-  std::map<SegmentId, std::size_t> counts;
-  std::size_t num_measured = 0;
-  for (int row = box.first_row; row < box.last_row; ++row) {
-    for (int column = box.first_column; column < box.last_column; ++column) {
-      const std::size_t cell = image.Cell(column, row);
-      if (image.depth[cell] <= 0) continue;
-      ++num_measured;
-      ++counts[image.segments[cell]];
-    }
-  }
-  for (const auto& [segment, count] : counts) {
-    if (segment != 0 && 2 * count >= num_measured) return segment;
-  }
-  return 0;
 }
 
 bool CanBe(const Segment& segment, const ClassTable& classes, int class_id) {

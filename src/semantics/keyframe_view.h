@@ -18,9 +18,9 @@ namespace semslam {
 struct SeenKeyframe {
   std::shared_ptr<const KeyframeCloud> cloud;
   std::vector<Detection> detections;  // Without those that make no sense.
-  // In the order in which the cloud visits its points.
+  // By cell of the cloud's grid.
   std::vector<std::uint32_t> points;  // In the map's cloud; kNoPoint: none there.
-  std::vector<float> areas;           // Of surface, square metres.
+  std::vector<float> areas;           // Of surface, square metres; only where there is a point.
 };
 inline constexpr std::uint32_t kNoPoint = 0xffffffff;
 
@@ -42,9 +42,6 @@ struct KeyframeView {
 };
 
 KeyframeView DrawSegments(const SeenKeyframe& keyframe, const Segmentation& segmentation);
-
-// The segment that at least half of the measured cells of a box show; 0: none.
-SegmentId FindFilling(const SegmentImage& image, const CellRange& box);
 
 // By segment id: what cannot belong to a thing of the class, whatever its box holds.
 std::vector<bool> FindBarriers(const Segmentation& segmentation,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include <Eigen/Geometry>
@@ -13,16 +12,6 @@
 
 namespace semslam {
 namespace {
-
-std::vector<Eigen::Vector3f> PointsNear(const std::vector<Eigen::Vector3f>& points,
-                                        const Eigen::AlignedBox3f& box,
-                                        float reach) {
-  std::vector<Eigen::Vector3f> near;
-  std::copy_if(
-      points.begin(), points.end(), std::back_inserter(near),
-      [&](const Eigen::Vector3f& p) { return box.squaredExteriorDistance(p) <= reach * reach; });
-  return near;
-}
 
 SegmentId RootOf(SegmentId segment, const std::vector<SegmentLabel>& labels) {
   while (labels[segment - 1].object_root != segment) segment = labels[segment - 1].object_root;
@@ -78,23 +67,18 @@ class Labeller {
   Labeller(const Evidence& evidence,
            const MapCloud& cloud,
            const Segmentation& segmentation,
+           const SegmentPoints& segment_points,
            const ClassTable& classes,
            const FusionOptions& options)
       : evidence_(evidence),
+        cloud_(cloud),
         segmentation_(segmentation),
+        segment_points_(segment_points),
         classes_(classes),
         options_(options),
         unknown_(EvidenceForNotKnowing(options)),
         labels_(segmentation.segments.size()),
-        points_(segmentation.segments.size()),
-        extents_(segmentation.segments.size()) {
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const SegmentId segment = segmentation.segment_of_point[i];
-      if (segment == 0) continue;
-      points_[segment - 1].push_back(cloud.positions[i]);
-      extents_[segment - 1].extend(cloud.positions[i]);
-    }
-  }
+        extents_(segmentation.segments.size()) {}
 
   std::vector<SegmentLabel> Run() {
     for (SegmentId segment = 1; segment <= labels_.size(); ++segment) LabelAlone(segment);
@@ -134,22 +118,41 @@ class Labeller {
     return num_shared > 0 && num_shared >= options_.min_shared_share * num_seen;
   }
 
-  bool LieTogether(SegmentId a, SegmentId b) const {
+  bool LieTogether(SegmentId a, SegmentId b) {
     const auto& neighbours = segmentation_.segments[a - 1].neighbours;
     if (std::binary_search(neighbours.begin(), neighbours.end(), b)) return true;
-    const float size =
-        std::max(extents_[a - 1].sizes().maxCoeff(), extents_[b - 1].sizes().maxCoeff());
+    const float size = std::max(ExtentOf(a).sizes().maxCoeff(), ExtentOf(b).sizes().maxCoeff());
     const float max_gap = std::max(static_cast<float>(options_.max_part_gap),
                                    static_cast<float>(options_.max_relative_part_gap) * size);
-    const std::vector<Eigen::Vector3f> near_b =
-        PointsNear(points_[a - 1], extents_[b - 1], max_gap);
-    const std::vector<Eigen::Vector3f> near_a =
-        PointsNear(points_[b - 1], extents_[a - 1], max_gap);
+    const std::vector<Eigen::Vector3f> near_b = PointsNear(a, ExtentOf(b), max_gap);
+    const std::vector<Eigen::Vector3f> near_a = PointsNear(b, ExtentOf(a), max_gap);
     return std::any_of(near_b.begin(), near_b.end(), [&](const Eigen::Vector3f& p) {
       return std::any_of(near_a.begin(), near_a.end(), [&](const Eigen::Vector3f& q) {
         return (p - q).squaredNorm() <= max_gap * max_gap;
       });
     });
+  }
+
+  // Of few segments anyone asks.
+  const Eigen::AlignedBox3f& ExtentOf(SegmentId segment) {
+    Eigen::AlignedBox3f& extent = extents_[segment - 1];
+    if (extent.isEmpty()) {
+      for (const std::uint32_t point : segment_points_.Of(segment)) {
+        extent.extend(cloud_.positions[point]);
+      }
+    }
+    return extent;
+  }
+
+  std::vector<Eigen::Vector3f> PointsNear(SegmentId segment,
+                                          const Eigen::AlignedBox3f& box,
+                                          float reach) const {
+    std::vector<Eigen::Vector3f> near;
+    for (const std::uint32_t point : segment_points_.Of(segment)) {
+      const Eigen::Vector3f& p = cloud_.positions[point];
+      if (box.squaredExteriorDistance(p) <= reach * reach) near.push_back(p);
+    }
+    return near;
   }
 
   void JoinParts() {
@@ -171,10 +174,12 @@ class Labeller {
     };
     std::vector<Piece> pieces;
     for (const auto& [pair, num_shared] : evidence_.num_shared_boxes) {
-      if (!ShareBoxes(pair, num_shared) || !LieTogether(pair.first, pair.second)) continue;
+      if (!ShareBoxes(pair, num_shared)) continue;
       for (const auto& [piece, part] :
            {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
-        if (IsPieceOf(piece, part)) pieces.push_back({piece, part, num_shared});
+        if (IsPieceOf(piece, part) && LieTogether(pair.first, pair.second)) {
+          pieces.push_back({piece, part, num_shared});
+        }
       }
     }
     // Each piece to the part it was seen with most often; ties to the lower id.
@@ -197,13 +202,14 @@ class Labeller {
   }
 
   const Evidence& evidence_;
+  const MapCloud& cloud_;
   const Segmentation& segmentation_;
+  const SegmentPoints& segment_points_;
   const ClassTable& classes_;
   const FusionOptions& options_;
   const std::int64_t unknown_;  // Evidence for not knowing.
   std::vector<SegmentLabel> labels_;
-  std::vector<std::vector<Eigen::Vector3f>> points_;  // By segment.
-  std::vector<Eigen::AlignedBox3f> extents_;          // In world axes.
+  std::vector<Eigen::AlignedBox3f> extents_;  // By segment, in world axes; see ExtentOf.
 };
 
 }  // namespace
@@ -211,9 +217,10 @@ class Labeller {
 std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
                                         const MapCloud& cloud,
                                         const Segmentation& segmentation,
+                                        const SegmentPoints& segment_points,
                                         const ClassTable& classes,
                                         const FusionOptions& options) {
-  return Labeller(evidence, cloud, segmentation, classes, options).Run();
+  return Labeller(evidence, cloud, segmentation, segment_points, classes, options).Run();
 }
 
 void JoinObjects(std::span<const SegmentPair> pairs,

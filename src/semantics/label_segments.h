@@ -8,6 +8,8 @@
 
 #include "semslam/semantics/semantic_map.h"
 
+#include "semantics/segment_points.h"
+
 namespace semslam {
 
 struct SegmentLabel {
@@ -25,6 +27,7 @@ struct SegmentLabel {
 std::vector<SegmentLabel> LabelSegments(const Evidence& evidence,
                                         const MapCloud& cloud,
                                         const Segmentation& segmentation,
+                                        const SegmentPoints& segment_points,
                                         const ClassTable& classes,
                                         const FusionOptions& options);
 

@@ -4,17 +4,18 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "semslam/dense/map_cloud.h"
 #include "semslam/segmentation/segmenter.h"
 
 namespace semslam {
 
-// Makes a segment of some points of a segment, with a number after all others; not a structural
-// one. The rest, which must not be empty, stays. Returns the new number.
-SegmentId MakeSegment(std::span<const std::uint32_t> points,
-                      SegmentId from,
-                      const MapCloud& cloud,
-                      Segmentation* segmentation);
+// Makes segments of some points of a segment, with numbers after all others; not structural ones.
+// The parts have no point in common; the rest, which must not be empty, stays.
+void MakeSegments(std::span<const std::vector<std::uint32_t>> parts,
+                  SegmentId from,
+                  const MapCloud& cloud,
+                  Segmentation* segmentation);
 
 }  // namespace semslam

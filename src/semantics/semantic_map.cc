@@ -3,6 +3,7 @@
 #include "semslam/semantics/semantic_map.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <string>
@@ -11,11 +12,13 @@
 
 #include "semslam/base/check.h"
 #include "semslam/base/error.h"
+#include "semslam/base/parallel.h"
 
 #include "semantics/collect_evidence.h"
 #include "semantics/duplicates.h"
 #include "semantics/flat_things.h"
 #include "semantics/label_segments.h"
+#include "semantics/segment_points.h"
 #include "semantics/split_segments.h"
 #include "semantics/support.h"
 
@@ -25,40 +28,66 @@ namespace {
 constexpr int kMaxThingsInASegment = 4;
 
 // Segments with one root are parts of one object.
-std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
-                                        const MapCloud& cloud,
-                                        const SupportFinder& supports,
-                                        const Segmentation& segmentation) {
+std::map<SegmentId, std::vector<SegmentId>> PartsOfObjects(
+    const std::vector<SegmentLabel>& labels) {
   std::map<SegmentId, std::vector<SegmentId>> parts_of;  // By root.
   for (SegmentId segment = 1; segment <= labels.size(); ++segment) {
     const SegmentLabel& label = labels[segment - 1];
     if (label.class_id != kNoClass) parts_of[label.object_root].push_back(segment);
   }
-  std::map<SegmentId, std::vector<Eigen::Vector3d>> points_of;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const SegmentId segment = segmentation.segment_of_point[i];
-    if (segment == 0 || labels[segment - 1].class_id == kNoClass) continue;
-    points_of[labels[segment - 1].object_root].push_back(cloud.positions[i].cast<double>());
+  return parts_of;
+}
+
+// All points of some segments, in the cloud's order.
+std::vector<std::uint32_t> PointsOf(const std::vector<SegmentId>& segments,
+                                    const SegmentPoints& segment_points) {
+  std::vector<std::uint32_t> points;
+  for (const SegmentId segment : segments) {
+    const std::span<const std::uint32_t> own = segment_points.Of(segment);
+    points.insert(points.end(), own.begin(), own.end());
   }
-  std::vector<SemanticObject> objects;
-  for (auto& [root, segments] : parts_of) {
-    const std::vector<Eigen::Vector3d>& points = points_of[root];
-    if (points.empty()) continue;
-    const SegmentLabel& label = labels[root - 1];
-    SemanticObject object;
-    object.class_id = label.class_id;
-    object.confidence = label.confidence;
-    object.entropy = label.entropy;
-    object.num_views = label.num_views;
-    object.segments = std::move(segments);
-    object.num_points = points.size();
-    object.centroid =
-        std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
-        static_cast<double>(points.size());
-    object.supporting_segment = supports.FindSupport(points, object.segments);
-    object.box = supports.FitBox(points, object.supporting_segment);
-    objects.push_back(std::move(object));
-  }
+  if (segments.size() > 1) std::sort(points.begin(), points.end());
+  return points;
+}
+
+SemanticObject MakeObject(const SegmentLabel& label,
+                          std::vector<SegmentId> segments,
+                          const std::vector<Eigen::Vector3d>& points,
+                          const SupportFinder& supports) {
+  SemanticObject object;
+  object.class_id = label.class_id;
+  object.confidence = label.confidence;
+  object.entropy = label.entropy;
+  object.num_views = label.num_views;
+  object.segments = std::move(segments);
+  object.num_points = points.size();
+  object.centroid =
+      std::accumulate(points.begin(), points.end(), Eigen::Vector3d(Eigen::Vector3d::Zero())) /
+      static_cast<double>(points.size());
+  object.supporting_segment = supports.FindSupport(points, object.segments);
+  object.box = supports.FitBox(points, object.supporting_segment);
+  return object;
+}
+
+std::vector<SemanticObject> MakeObjects(const std::vector<SegmentLabel>& labels,
+                                        const MapCloud& cloud,
+                                        const SegmentPoints& segment_points,
+                                        const SupportFinder& supports) {
+  std::map<SegmentId, std::vector<SegmentId>> parts_of = PartsOfObjects(labels);
+  std::erase_if(parts_of, [&](const auto& object) {
+    return std::all_of(object.second.begin(), object.second.end(),
+                       [&](SegmentId segment) { return segment_points.Of(segment).empty(); });
+  });
+  std::vector<std::pair<SegmentId, std::vector<SegmentId>>> parts(
+      std::make_move_iterator(parts_of.begin()), std::make_move_iterator(parts_of.end()));
+  std::vector<SemanticObject> objects(parts.size());
+  ParallelFor(parts.size(), 1, 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      auto& [root, segments] = parts[i];
+      const auto points = PositionsOf(PointsOf(segments, segment_points), cloud);
+      objects[i] = MakeObject(labels[root - 1], std::move(segments), points, supports);
+    }
+  });
   return objects;
 }
 
@@ -139,17 +168,19 @@ SemanticMap LabelMap(const MapCloud& cloud,
                      const ClassTable& classes,
                      const FusionOptions& options,
                      const SemanticMap* previous) {
-  std::vector<SegmentLabel> labels = LabelSegments(evidence, cloud, segmentation, classes, options);
+  const SegmentPoints segment_points(segmentation);
+  std::vector<SegmentLabel> labels =
+      LabelSegments(evidence, cloud, segmentation, segment_points, classes, options);
   SemanticMap map;
   map.classes = classes;
   map.segment_of_point = segmentation.segment_of_point;
   const SupportFinder supports(cloud, index, segmentation);
-  map.objects = MakeObjects(labels, cloud, supports, segmentation);
+  map.objects = MakeObjects(labels, cloud, segment_points, supports);
   const std::vector<SegmentPair> duplicates =
-      FindDuplicates(map.objects, cloud, segmentation, evidence);
+      FindDuplicates(map.objects, cloud, segment_points, evidence);
   if (!duplicates.empty()) {
     JoinObjects(duplicates, evidence, options, &labels);
-    map.objects = MakeObjects(labels, cloud, supports, segmentation);
+    map.objects = MakeObjects(labels, cloud, segment_points, supports);
   }
   NumberObjects(previous, options.max_object_shift, map);
   const std::vector<ObjectId> object_of_segment = ObjectOfSegment(map.objects, labels.size());

@@ -49,14 +49,17 @@ void AddClaims(const SeenKeyframe& keyframe,
                const ClassTable& classes,
                const EvidenceOptions& options,
                std::map<SegmentId, Claims>* claims_of) {
+  std::vector<bool> is_asked(view.visibility.size(), false);
+  for (const auto& [segment, claims] : *claims_of) is_asked[segment] = true;
   std::vector<BoxClaim> claims;
   for (const Detection& detection : keyframe.detections) {
     const CellRange range =
         CellRange::Of(detection.box, keyframe.cloud->stride(), view.image.columns, view.image.rows);
-    const auto foreground = FindForeground(
-        view.image, range, FindBarriers(segmentation, classes, detection.class_id), options);
-    for (BoxClaim& claim : ClaimsOf(foreground, view, options.min_pixels)) {
-      if (claims_of->contains(claim.segment)) claims.push_back(std::move(claim));
+    const auto foreground =
+        FindForeground(*keyframe.cloud, view.image, range,
+                       FindBarriers(segmentation, classes, detection.class_id), options);
+    for (BoxClaim& claim : ClaimsOf(foreground, keyframe, view, is_asked, options.min_pixels)) {
+      claims.push_back(std::move(claim));
     }
   }
   // Where each claim goes among those on its segment.
@@ -225,7 +228,7 @@ std::optional<Segmentation> SplitMixedSegments(const MapCloud& cloud,
     }
     if (!result) result = segmentation;
     const bool is_first_smaller = parts[0].size() < parts[1].size();
-    MakeSegment(parts[is_first_smaller ? 0 : 1], segment, cloud, &*result);
+    MakeSegments(std::span(parts).subspan(is_first_smaller ? 0 : 1, 1), segment, cloud, &*result);
   }
   return result;
 }

@@ -57,25 +57,18 @@ SupportFinder::SupportFinder(const MapCloud& cloud,
 SegmentId SupportFinder::FindSupport(std::span<const Eigen::Vector3d> points,
                                      std::span<const SegmentId> own) const {
   if (!up_ || points.empty()) return 0;
-  // Every lookup finds what lies within one voxel around.
-  const double step = 3 * segmentation_.voxel_size;
-  const int reach = static_cast<int>(std::ceil((kReach - segmentation_.voxel_size) / step));
-  const Eigen::Vector3d side = up_->unitOrthogonal();
-  const Eigen::Vector3d other = up_->cross(side);
   const double highest = LowestHeight(points, *up_) + kLayer;
+  const std::vector<Eigen::Vector3d> offsets = OffsetsToSupport();
+  VoxelIndex::Finder finder(index_);
   std::map<SegmentId, std::size_t> num_touched;
   for (const Eigen::Vector3d& point : LowPoints(points, *up_, highest)) {
     std::vector<SegmentId> touched;  // By this point; each counts once.
-    for (int x = -reach; x <= reach; ++x) {
-      for (int y = -reach; y <= reach; ++y) {
-        for (int down = 0; down <= reach; ++down) {
-          const auto found = index_.Find(point + step * (x * side + y * other - down * *up_));
-          if (!found) continue;
-          const SegmentId segment = segmentation_.segment_of_point[*found];
-          if (segment != 0 && !std::binary_search(own.begin(), own.end(), segment)) {
-            touched.push_back(segment);
-          }
-        }
+    for (const Eigen::Vector3d& offset : offsets) {
+      const auto found = finder.Find(point + offset);
+      if (!found) continue;
+      const SegmentId segment = segmentation_.segment_of_point[*found];
+      if (segment != 0 && !std::binary_search(own.begin(), own.end(), segment)) {
+        touched.push_back(segment);
       }
     }
     std::sort(touched.begin(), touched.end());
@@ -87,6 +80,23 @@ SegmentId SupportFinder::FindSupport(std::span<const Eigen::Vector3d> points,
     if (support == 0 || count > num_touched[support]) support = segment;
   }
   return support;
+}
+
+// Every lookup finds what lies within one voxel around.
+std::vector<Eigen::Vector3d> SupportFinder::OffsetsToSupport() const {
+  const double step = 3 * segmentation_.voxel_size;
+  const int reach = static_cast<int>(std::ceil((kReach - segmentation_.voxel_size) / step));
+  const Eigen::Vector3d side = up_->unitOrthogonal();
+  const Eigen::Vector3d other = up_->cross(side);
+  std::vector<Eigen::Vector3d> offsets;
+  for (int x = -reach; x <= reach; ++x) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int down = 0; down <= reach; ++down) {
+        offsets.emplace_back(step * (x * side + y * other - down * *up_));
+      }
+    }
+  }
+  return offsets;
 }
 
 std::optional<Plane> SupportFinder::LevelPlaneOf(SegmentId segment) const {

@@ -36,6 +36,8 @@ class SupportFinder {
   OrientedBox FitBox(std::span<const Eigen::Vector3d> points, SegmentId support) const;
 
  private:
+  // From a low point of a thing to the places around it at which to look for what carries it.
+  std::vector<Eigen::Vector3d> OffsetsToSupport() const;
   std::optional<Plane> LevelPlaneOf(SegmentId segment) const;
 
   const VoxelIndex& index_;

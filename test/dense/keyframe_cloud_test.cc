@@ -54,6 +54,23 @@ TEST(KeyframeCloud, HoldsThePointsOfTheSurfaceInTheCameraFrame) {
   EXPECT_EQ(num_visited, cloud->num_points());
 }
 
+TEST(KeyframeCloud, TellsTheCellOfEveryPoint) {
+  const RgbdImage image =
+      RenderBoxes({{{-0.2, -0.3, 1.5}, {0.4, 0.1, 1.6}, 77}}, TestCamera(), Rigid3());
+  const auto cloud =
+      BuildKeyframeCloud(KeyframeId{0}, image, std::make_shared<const RayTable>(TestCamera()), {});
+  std::size_t num_visited = 0;
+  cloud->ForEachCell([&](std::size_t cell, const KeyframePoint& point) {
+    ++num_visited;
+    const auto columns = static_cast<std::size_t>(cloud->grid_columns());
+    EXPECT_EQ(static_cast<int>(cell % columns) * cloud->stride(), point.column);
+    EXPECT_EQ(static_cast<int>(cell / columns) * cloud->stride(), point.row);
+  });
+  EXPECT_GT(num_visited, 0U);
+  EXPECT_EQ(num_visited, cloud->num_points());
+  EXPECT_LT(num_visited, cloud->num_cells());
+}
+
 TEST(KeyframeCloud, FitsInAMegabyteAtFullSize) {
   PinholeCamera::Parameters parameters;
   parameters.fx = parameters.fy = 525;

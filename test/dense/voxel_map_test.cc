@@ -307,6 +307,13 @@ TEST(VoxelIndex, FindsTheNearestNeighbourWithinAVoxelAndNothingBeyond) {
   EXPECT_EQ(VoxelIndex().Find({0, 0, 0}), std::nullopt);
 }
 
+TEST(VoxelKey, RoundsDown) {
+  for (const double value : {-2.0, -1.5, -0.25, 0.0, 0.75, 1.0, 1.5, 100000.0}) {
+    EXPECT_EQ(VoxelKey::Floor(value), static_cast<int>(std::floor(value)));
+    EXPECT_EQ(VoxelKey::Floor(static_cast<float>(value)), static_cast<int>(std::floor(value)));
+  }
+}
+
 // All points of the 27 voxels around the query, by exhaustive search.
 TEST(VoxelIndex, FindsWhatAnExhaustiveSearchFinds) {
   constexpr double kVoxelSize = 0.01;
@@ -325,6 +332,7 @@ TEST(VoxelIndex, FindsWhatAnExhaustiveSearchFinds) {
     first_in_voxel.try_emplace(VoxelKey::Pack(voxel_of(positions.back().cast<double>())), i);
   }
   const VoxelIndex index(positions, kVoxelSize);
+  VoxelIndex::Finder finder(index);  // Of one place after another.
   int num_found = 0;
   for (int query = 0; query < 2000; ++query) {
     const Eigen::Vector3d place = anywhere();
@@ -339,6 +347,7 @@ TEST(VoxelIndex, FindsWhatAnExhaustiveSearchFinds) {
       expected = point;
     }
     EXPECT_EQ(index.Find(place), expected) << place.transpose();
+    EXPECT_EQ(finder.Find(place), expected) << place.transpose();
     num_found += expected ? 1 : 0;
   }
   EXPECT_GT(num_found, 500);

@@ -14,6 +14,7 @@ using ::testing::IsEmpty;
 class DuplicatesTest : public ::testing::Test {
  protected:
   DuplicatesTest() {
+    segmentation_.segments.resize(2);
     for (int i = 0; i < 30; ++i) Add(1, {0.002F * static_cast<float>(i), 0, 0});
     for (int i = 0; i < 10; ++i) Add(2, {0.002F * static_cast<float>(i), 0.02F, 0});
     for (SegmentId segment = 1; segment <= 2; ++segment) {
@@ -32,7 +33,7 @@ class DuplicatesTest : public ::testing::Test {
   }
 
   std::vector<SegmentPair> Find() const {
-    return FindDuplicates(objects_, cloud_, segmentation_, evidence_);
+    return FindDuplicates(objects_, cloud_, SegmentPoints(segmentation_), evidence_);
   }
 
   MapCloud cloud_;

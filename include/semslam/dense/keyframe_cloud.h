@@ -46,6 +46,7 @@ class KeyframeCloud {
   int grid_rows() const { return grid_rows_; }
   int image_width() const { return rays_->width(); }
   int image_height() const { return rays_->height(); }
+  std::size_t num_cells() const { return texels_.size(); }
   std::size_t num_points() const { return num_points_; }
   // Distance of the furthest point from the camera's centre, metres. 0 without points.
   float max_range() const { return max_range_; }
@@ -63,9 +64,16 @@ class KeyframeCloud {
   // Calls visit(const KeyframePoint&) for every point, row by row.
   template <typename Visit>
   void ForEach(Visit&& visit) const {
+    ForEachCell([&](std::size_t, const KeyframePoint& point) { visit(point); });
+  }
+  // Calls visit(cell, const KeyframePoint&) for every point. Cells of the grid are counted row by
+  // row.
+  template <typename Visit>
+  void ForEachCell(Visit&& visit) const {
+    std::size_t cell = 0;
     for (int j = 0; j < grid_rows_; ++j) {
-      for (int i = 0; i < grid_columns_; ++i) {
-        if (TexelAt(i, j).depth != 0) visit(Decode(i, j));
+      for (int i = 0; i < grid_columns_; ++i, ++cell) {
+        if (texels_[cell].depth != 0) visit(cell, Decode(i, j));
       }
     }
   }

@@ -68,10 +68,16 @@ using SegmentPair = std::pair<SegmentId, SegmentId>;  // The lower id first.
 // Boxes of one class.
 using SegmentAndClass = std::pair<SegmentId, int>;
 
+// A box, by the places of its keyframe and its detection among all.
+struct BoxPlace {
+  std::size_t keyframe = 0;
+  std::size_t detection = 0;
+};
+
 struct Evidence {
   std::vector<SegmentEvidence> segments;  // segments[i] belongs to segment i + 1.
-  // How many boxes of a class were filled by a segment that is too large for it.
-  std::map<SegmentAndClass, std::uint32_t> num_filled_boxes;
+  // The boxes of a class that were filled by a segment that is too large for it.
+  std::map<SegmentAndClass, std::vector<BoxPlace>> filled_boxes;
   // In how many keyframes two segments belonged to the foreground of one box.
   std::map<SegmentPair, std::uint32_t> num_shared_boxes;
   // In how many two boxes of one class held one segment each, and no box both.
