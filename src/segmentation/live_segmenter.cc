@@ -43,6 +43,17 @@ std::int64_t SquaredDistance(std::uint64_t a, std::uint64_t b) {
   return sum;
 }
 
+// Work is counted, not timed, so that the same calls give the same regions.
+std::int64_t WorkOfStep(std::size_t max_voxels) {
+  return static_cast<std::int64_t>(max_voxels - max_voxels / 5);
+}
+
+// To take note of a voxel's coming or going, or to look one up, costs so much of segmenting it.
+std::int64_t WorkOfBooks(std::size_t num_voxels) {
+  constexpr std::size_t kVoxelsForTheWorkOfOne = 8;
+  return static_cast<std::int64_t>(num_voxels / kVoxelsForTheWorkOfOne);
+}
+
 }  // namespace
 
 void LiveSegmenter::Options::Validate() const {
@@ -188,10 +199,24 @@ void LiveSegmenter::Rank(std::uint64_t key, Block& block) {
   block.rank = change;
 }
 
+// What may be spent on a region, in voxels: the unit of work is to segment one.
+std::int64_t LiveSegmenter::Allowance() const {
+  return WorkOfStep(options_.max_voxels) + carried_ - WorkOfBooks(num_updated_);
+}
+
+// Regions of equal size differ in cost, mostly because the segmenter takes larger voxels where
+// points are sparse, as they are where the map is young. So the next region is as much larger or
+// smaller as this one cost less or more than it should.
+void LiveSegmenter::Account(std::size_t num_in_region, std::size_t num_segmented) {
+  const std::int64_t left =
+      Allowance() - WorkOfBooks(num_in_region) - static_cast<std::int64_t>(num_segmented);
+  const std::int64_t most = WorkOfStep(options_.max_voxels) / 4;  // No step pays for an odd one.
+  carried_ = std::clamp(left, -most, most);
+}
+
 LiveSegmenter::Region LiveSegmenter::NextRegion() const {
-  constexpr std::size_t kUpdatesOfAVoxel = 12;  // That cost as much as to segment it.
-  const std::size_t max_voxels =
-      options_.max_voxels - std::min(options_.max_voxels / 2, num_updated_ / kUpdatesOfAVoxel);
+  const auto limit = static_cast<std::int64_t>(options_.max_voxels);
+  const auto max_voxels = static_cast<std::size_t>(std::clamp(Allowance(), limit / 2, limit));
   std::vector<std::uint64_t> taken;
   std::set<std::uint64_t> known;
   std::size_t num_voxels = 0;
@@ -235,6 +260,7 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   SEMSLAM_CHECK(cloud.points.size() == region.voxels.size())
       << cloud.points.size() << " points, " << region.voxels.size() << " voxels";
   const Segmentation found = Segmenter(options_.segmentation).Segment(cloud);
+  Account(region.voxels.size(), found.num_voxels);
   std::vector<SegmentId> old_ids;
   old_ids.reserve(region.voxels.size());
   for (const std::uint64_t block : region.blocks) {

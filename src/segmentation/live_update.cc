@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <limits>
+#include <bit>
 #include <utility>
 
+#include "semslam/base/key_numbers.h"
 #include "semslam/segmentation/live_segmenter.h"
 
 #include "segmentation/live_keys.h"
@@ -46,31 +47,19 @@ void LiveSegmenter::Update(const Changes& changes) {
     const auto* voxel = finder.FindVoxel(from);
     if (voxel != nullptr && voxel->second != 0) carried.emplace_back(to, voxel->second);
   }
-  const std::vector<std::uint64_t> vanished = SortedByBlock(changes.vanished);
-  const std::vector<std::uint64_t> appeared = SortedByBlock(changes.appeared);
-  const auto end_of_block = [&](const auto& keys, std::size_t i, std::uint64_t block) {
-    while (i < keys.size() && BlockOf(keys[i]) == block) ++i;
-    return i;
-  };
+  KeyNumbers blocks(0);
+  const std::vector<std::uint64_t> vanished = SortedByBlock(changes.vanished, blocks);
+  const std::vector<std::uint64_t> appeared = SortedByBlock(changes.appeared, blocks);
   num_updated_ = vanished.size() + appeared.size();
   std::size_t v = 0;
   std::size_t a = 0;
-  while (v < vanished.size() || a < appeared.size()) {
-    std::uint64_t block = std::numeric_limits<std::uint64_t>::max();
-    if (v < vanished.size()) block = std::min(block, BlockOf(vanished[v]));
-    if (a < appeared.size()) block = std::min(block, BlockOf(appeared[a]));
-    const std::size_t v_end = end_of_block(vanished, v, block);
-    const std::size_t a_end = end_of_block(appeared, a, block);
-    const auto place = blocks_.try_emplace(block).first;
-    RemoveVoxels(std::span(vanished).subspan(v, v_end - v), place->second);
-    AddVoxels(std::span(appeared).subspan(a, a_end - a), place->second);
-    Rank(block, place->second);
-    if (place->second.voxels.empty()) {
-      changed_.erase({place->second.rank, block});
-      blocks_.erase(place);
-    }
-    v = v_end;
-    a = a_end;
+  for (const std::uint64_t block : blocks.keys()) {
+    const auto of_block = [&](const std::vector<std::uint64_t>& keys, std::size_t& i) {
+      const std::size_t first = i;
+      while (i < keys.size() && BlockOf(keys[i]) == block) ++i;
+      return std::span(keys).subspan(first, i - first);
+    };
+    UpdateBlock(block, of_block(vanished, v), of_block(appeared, a));
   }
   finder = BlockFinder(*this);  // Blocks have come and gone.
   for (const auto& [key, id] : carried) {
@@ -79,26 +68,39 @@ void LiveSegmenter::Update(const Changes& changes) {
   }
 }
 
-// Each once, so that those of a block follow each other, by key.
-std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(
-    const std::vector<std::uint64_t>& voxels) const {
+void LiveSegmenter::UpdateBlock(std::uint64_t key,
+                                std::span<const std::uint64_t> vanished,
+                                std::span<const std::uint64_t> appeared) {
+  const auto place = blocks_.try_emplace(key).first;
+  RemoveVoxels(vanished, place->second);
+  AddVoxels(appeared, place->second);
+  Rank(key, place->second);
+  if (!place->second.voxels.empty()) return;
+  changed_.erase({place->second.rank, key});
+  blocks_.erase(place);
+}
+
+// Each once, block by block in the order of their numbers, those of a block by key.
+std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(const std::vector<std::uint64_t>& voxels,
+                                                        KeyNumbers& blocks) const {
   const std::uint64_t inner = static_cast<std::uint64_t>(options_.block_size) - 1;
   std::vector<KeyedIndex> order;
   order.reserve(voxels.size());
+  std::uint64_t last = 0;
+  std::uint64_t number = KeyNumbers::kNone;
   for (const std::uint64_t key : voxels) {
-    // The bits within the block, below those of the block.
-    const auto cell = CellOf(key);
-    std::uint64_t place = 0;
-    for (const std::int64_t c : cell) {
-      place =
-          place << (kVoxelAxisBits - block_bits_) | static_cast<std::uint64_t>(c) >> block_bits_;
-    }
-    for (const std::int64_t c : cell) {
+    const std::uint64_t block = BlockOf(key);
+    if (number == KeyNumbers::kNone || block != last) number = blocks.Insert(block);
+    last = block;
+    std::uint64_t place = number;
+    for (const std::int64_t c : CellOf(key)) {
       place = place << block_bits_ | (static_cast<std::uint64_t>(c) & inner);
     }
     order.push_back({place, static_cast<std::uint32_t>(order.size())});
   }
-  RadixSort(order, 3 * kVoxelAxisBits, 1);
+  // Few bits, as numbers are small.
+  const auto number_bits = static_cast<int>(std::bit_width(blocks.keys().size()));
+  RadixSort(order, 3 * block_bits_ + number_bits, 1);
   std::vector<std::uint64_t> sorted;
   sorted.reserve(voxels.size());
   for (const KeyedIndex& item : order) {
