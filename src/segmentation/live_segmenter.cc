@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -153,6 +154,11 @@ std::uint64_t LiveSegmenter::BlockOf(std::uint64_t voxel) const {
          static_cast<std::uint64_t>(cell[2] >> block_bits_);
 }
 
+bool LiveSegmenter::HasVoxels(std::uint64_t block) const {
+  const std::uint32_t number = numbers_.Find(block);
+  return number != KeyNumbers::kNone && !blocks_[number].voxels.empty();
+}
+
 SegmentId LiveSegmenter::Resolve(SegmentId id) const {
   while (joined_to_[id] != id) id = joined_to_[id];
   return id;
@@ -186,7 +192,7 @@ LiveSegmenter::Region LiveSegmenter::Collect(std::vector<std::uint64_t> blocks) 
   Region region{{}, std::move(blocks)};
   std::sort(region.blocks.begin(), region.blocks.end());
   for (const std::uint64_t block : region.blocks) {
-    for (const auto& [key, id] : blocks_.at(block).voxels) region.voxels.push_back(key);
+    for (const auto& [key, id] : At(block).voxels) region.voxels.push_back(key);
   }
   return region;
 }
@@ -227,11 +233,11 @@ LiveSegmenter::Region LiveSegmenter::NextRegion() const {
     while (!open.empty()) {
       const std::uint64_t key = open.begin()->second;
       open.erase(open.begin());
-      num_voxels += blocks_.at(key).voxels.size();
+      num_voxels += At(key).voxels.size();
       if (num_voxels > max_voxels && !taken.empty()) return Collect(std::move(taken));
       taken.push_back(key);
       VisitAround(key, [&, start = start](std::uint64_t other) {
-        if (!blocks_.contains(other) || !known.insert(other).second) return;
+        if (!HasVoxels(other) || !known.insert(other).second) return;
         open.emplace(SquaredDistance(start, other), other);
       });
     }
@@ -242,16 +248,17 @@ LiveSegmenter::Region LiveSegmenter::NextRegion() const {
 LiveSegmenter::Region LiveSegmenter::WholeMap() const {
   std::vector<std::uint64_t> all;
   all.reserve(blocks_.size());
-  for (const auto& [key, block] : blocks_) all.push_back(key);
+  for (const std::uint64_t key : numbers_.keys()) {
+    if (HasVoxels(key)) all.push_back(key);
+  }
   return Collect(std::move(all));
 }
 
 bool LiveSegmenter::IsInside(std::uint64_t block, const Region& region) const {
   bool is_inside = true;
   VisitAround(block, [&](std::uint64_t other) {
-    is_inside =
-        is_inside && (!blocks_.contains(other) ||
-                      std::binary_search(region.blocks.begin(), region.blocks.end(), other));
+    is_inside = is_inside && (!HasVoxels(other) || std::binary_search(region.blocks.begin(),
+                                                                      region.blocks.end(), other));
   });
   return is_inside;
 }
@@ -264,7 +271,7 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   std::vector<SegmentId> old_ids;
   old_ids.reserve(region.voxels.size());
   for (const std::uint64_t block : region.blocks) {
-    for (const auto& [key, id] : blocks_.at(block).voxels) old_ids.push_back(Resolve(id));
+    for (const auto& [key, id] : At(block).voxels) old_ids.push_back(Resolve(id));
   }
   SEMSLAM_CHECK(old_ids.size() == region.voxels.size()) << "the map has changed";
   const std::vector<SegmentId> ids =
@@ -273,7 +280,7 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   std::size_t i = 0;
   bool is_any_inside = false;
   for (const std::uint64_t key : region.blocks) {
-    Block& block = blocks_.at(key);
+    Block& block = At(key);
     if (!IsInside(key, region)) {
       i += block.voxels.size();
       continue;
@@ -286,16 +293,17 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   if (is_any_inside) return;
   // Blocks too full for a region with a border: not again and again.
   for (const std::uint64_t key : region.blocks) {
-    blocks_.at(key).num_changed = 0;
-    Rank(key, blocks_.at(key));
+    At(key).num_changed = 0;
+    Rank(key, At(key));
   }
 }
 
 SegmentId LiveSegmenter::IdOf(std::uint64_t voxel) const {
-  const auto block = blocks_.find(BlockOf(voxel));
-  if (block == blocks_.end()) return 0;
-  const auto place = Place(block->second.voxels, voxel);
-  if (place == block->second.voxels.end() || place->first != voxel) return 0;
+  const std::uint64_t block = BlockOf(voxel);
+  if (!HasVoxels(block)) return 0;
+  const VoxelIds& voxels = At(block).voxels;
+  const auto place = Place(voxels, voxel);
+  if (place == voxels.end() || place->first != voxel) return 0;
   return Resolve(place->second);
 }
 

@@ -21,9 +21,8 @@ class LiveSegmenter::BlockFinder {
   Block* Find(std::uint64_t voxel) {
     const std::uint64_t key = live_->BlockOf(voxel);
     if (block_ != nullptr && key == key_) return block_;
-    const auto found = live_->blocks_.find(key);
     key_ = key;
-    block_ = found == live_->blocks_.end() ? nullptr : &found->second;
+    block_ = live_->HasVoxels(key) ? &live_->At(key) : nullptr;
     return block_;
   }
   // Null if it is not known.
@@ -54,14 +53,14 @@ void LiveSegmenter::Update(const Changes& changes) {
   std::size_t v = 0;
   std::size_t a = 0;
   for (const std::uint64_t block : blocks.keys()) {
-    const auto of_block = [&](const std::vector<std::uint64_t>& keys, std::size_t& i) {
-      const std::size_t first = i;
-      while (i < keys.size() && BlockOf(keys[i]) == block) ++i;
-      return std::span(keys).subspan(first, i - first);
+    const auto of_block = [&](const std::vector<std::uint64_t>& keys, std::size_t& next) {
+      const std::size_t first = next;
+      while (next < keys.size() && BlockOf(keys[next]) == block) ++next;
+      return std::span(keys).subspan(first, next - first);
     };
     UpdateBlock(block, of_block(vanished, v), of_block(appeared, a));
   }
-  finder = BlockFinder(*this);  // Blocks have come and gone.
+  finder = BlockFinder(*this);  // Blocks have moved.
   for (const auto& [key, id] : carried) {
     auto* voxel = finder.FindVoxel(key);
     if (voxel != nullptr && voxel->second == 0) SetId(*voxel, id);
@@ -71,13 +70,15 @@ void LiveSegmenter::Update(const Changes& changes) {
 void LiveSegmenter::UpdateBlock(std::uint64_t key,
                                 std::span<const std::uint64_t> vanished,
                                 std::span<const std::uint64_t> appeared) {
-  const auto place = blocks_.try_emplace(key).first;
-  RemoveVoxels(vanished, place->second);
-  AddVoxels(appeared, place->second);
-  Rank(key, place->second);
-  if (!place->second.voxels.empty()) return;
-  changed_.erase({place->second.rank, key});
-  blocks_.erase(place);
+  const std::uint32_t number = numbers_.Insert(key);
+  if (number == blocks_.size()) blocks_.emplace_back();
+  Block& block = blocks_[number];
+  Merge(vanished, appeared, block);
+  if (block.voxels.empty()) {
+    block.voxels.shrink_to_fit();
+    block.num_changed = 0;
+  }
+  Rank(key, block);
 }
 
 // Each once, block by block in the order of their numbers, those of a block by key.
@@ -109,36 +110,29 @@ std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(const std::vector<std::u
   return sorted;
 }
 
-void LiveSegmenter::RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block) {
-  if (vanished.empty()) return;
-  const std::size_t size_before = block.voxels.size();
-  auto next = vanished.begin();
-  std::erase_if(block.voxels, [&](const std::pair<std::uint64_t, SegmentId>& voxel) {
-    while (next != vanished.end() && *next < voxel.first) ++next;
-    if (next == vanished.end() || *next != voxel.first) return false;
+void LiveSegmenter::Merge(std::span<const std::uint64_t> vanished,
+                          std::span<const std::uint64_t> appeared,
+                          Block& block) {
+  merged_.clear();
+  std::size_t num_removed = 0;
+  auto gone = vanished.begin();
+  const auto keep_unless_gone = [&](const std::pair<std::uint64_t, SegmentId>& voxel) {
+    while (gone != vanished.end() && *gone < voxel.first) ++gone;
+    if (gone == vanished.end() || *gone != voxel.first) return merged_.push_back(voxel);
     const SegmentId id = Resolve(voxel.second);
     if (id != 0) --num_voxels_of_[id];
-    return true;
-  });
-  const std::size_t num_removed = size_before - block.voxels.size();
-  num_voxels_ -= num_removed;
-  block.num_changed += num_removed;
-}
-
-void LiveSegmenter::AddVoxels(std::span<const std::uint64_t> appeared, Block& block) {
-  if (appeared.empty()) return;
-  std::vector<std::pair<std::uint64_t, SegmentId>> merged;
-  merged.reserve(block.voxels.size() + appeared.size());
+    ++num_removed;
+  };
   auto old = block.voxels.cbegin();
   for (const std::uint64_t key : appeared) {
-    while (old != block.voxels.cend() && old->first < key) merged.push_back(*old++);
-    if (old == block.voxels.cend() || old->first != key) merged.emplace_back(key, 0);
+    while (old != block.voxels.cend() && old->first <= key) keep_unless_gone(*old++);
+    if (merged_.empty() || merged_.back().first != key) merged_.emplace_back(key, 0);
   }
-  merged.insert(merged.end(), old, block.voxels.cend());
-  const std::size_t num_added = merged.size() - block.voxels.size();
-  block.voxels = std::move(merged);
-  num_voxels_ += num_added;
-  block.num_changed += num_added;
+  std::for_each(old, block.voxels.cend(), keep_unless_gone);
+  const std::size_t num_added = merged_.size() + num_removed - block.voxels.size();
+  block.voxels.assign(merged_.begin(), merged_.end());
+  num_voxels_ += num_added - num_removed;
+  block.num_changed += num_added + num_removed;
 }
 
 }  // namespace semslam

@@ -4,17 +4,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "semslam/base/key_numbers.h"
 #include "semslam/segmentation/segmenter.h"
 
 namespace semslam {
-
-class KeyNumbers;
 
 // Segments of a voxel map while it grows: again and again the region that has changed most is
 // segmented anew, and its segments get the ids of those they take the place of. An id stays with
@@ -71,10 +69,11 @@ class LiveSegmenter {
   std::size_t num_voxels() const { return num_voxels_; }
 
  private:
+  using VoxelIds = std::vector<std::pair<std::uint64_t, SegmentId>>;
   struct Block {
-    std::vector<std::pair<std::uint64_t, SegmentId>> voxels;  // Ascending by key.
-    std::size_t num_changed = 0;                              // Since it was segmented.
-    std::size_t rank = 0;  // Its change in `changed_`; 0: not in it.
+    VoxelIds voxels;              // Ascending by key.
+    std::size_t num_changed = 0;  // Since it was segmented.
+    std::size_t rank = 0;         // Its change in `changed_`; 0: not in it.
   };
   // By change, the most first; then by key.
   struct ChangedMore {
@@ -87,13 +86,17 @@ class LiveSegmenter {
   class BlockFinder;
 
   std::uint64_t BlockOf(std::uint64_t voxel) const;
+  bool HasVoxels(std::uint64_t block) const;
+  const Block& At(std::uint64_t block) const { return blocks_[numbers_.Find(block)]; }
+  Block& At(std::uint64_t block) { return blocks_[numbers_.Find(block)]; }
   std::vector<std::uint64_t> SortedByBlock(const std::vector<std::uint64_t>& voxels,
                                            KeyNumbers& blocks) const;
   void UpdateBlock(std::uint64_t key,
                    std::span<const std::uint64_t> vanished,
                    std::span<const std::uint64_t> appeared);
-  void RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block);
-  void AddVoxels(std::span<const std::uint64_t> appeared, Block& block);
+  void Merge(std::span<const std::uint64_t> vanished,
+             std::span<const std::uint64_t> appeared,
+             Block& block);
   std::size_t ChangeOf(const Block& block) const;  // 0: not worth a step.
   void Rank(std::uint64_t key, Block& block);      // After its change has changed.
   Region Collect(std::vector<std::uint64_t> blocks) const;
@@ -106,7 +109,9 @@ class LiveSegmenter {
 
   Options options_;
   int block_bits_ = 0;
-  std::map<std::uint64_t, Block> blocks_;
+  KeyNumbers numbers_{0};      // Of the blocks.
+  std::vector<Block> blocks_;  // By number; those that have lost all voxels stay.
+  VoxelIds merged_;            // What a block is merged in; kept to save the allocation.
   // Those worth a step.
   std::set<std::pair<std::size_t, std::uint64_t>, ChangedMore> changed_;
   std::size_t num_voxels_ = 0;
