@@ -229,8 +229,10 @@ void VoxelMap::Record(std::uint64_t key) {
 
 // Of voxels that went and came back nothing is told.
 void VoxelMap::FindChanges() {
-  for (const std::uint32_t number : changed_) {
-    Voxel& voxel = table_->At(number);
+  for (std::size_t i = 0; i < changed_.size(); ++i) {
+    constexpr std::size_t kAhead = 16;  // The map is far larger than a cache.
+    if (i + kAhead < changed_.size()) table_->Prefetch(changed_[i + kAhead]);
+    Voxel& voxel = table_->At(changed_[i]);
     const bool is_there = voxel.weight != 0;
     if (is_there == voxel.is_told()) continue;
     voxel.ToggleTold();

@@ -8,9 +8,11 @@
 namespace semslam {
 namespace {
 
-constexpr std::size_t kMinSlots = 1024;
-constexpr std::size_t kMaxLoadNumerator = 4;  // At most 4/5 of the slots are used.
-constexpr std::size_t kMaxLoadDenominator = 5;
+constexpr std::size_t kMinLines = 128;
+constexpr std::size_t kMaxOfLine = 9;  // Voxels for each line of slots, on average.
+// The lowest bits of x, y and z: keys that are equal but for them share a line.
+constexpr std::uint64_t kCubeBits =
+    std::uint64_t{1} << 42 | std::uint64_t{1} << 21 | std::uint64_t{1};
 
 std::array<std::uint32_t, 3> Weighted(std::uint32_t weight,
                                       const std::array<std::int32_t, 3>& value) {
@@ -46,34 +48,41 @@ void Voxel::Subtract(const VoxelSample& sample) {
 }
 
 Voxel* VoxelTable::Find(std::uint64_t key) {
-  if (slots_.empty()) return nullptr;
-  const std::uint32_t number = slots_[SlotOf(key)];
-  return number == 0 ? nullptr : &At(number - 1);
+  if (lines_.empty()) return nullptr;
+  const Place place = PlaceOf(key);
+  return IsUsed(place) ? &At(lines_[place.line].numbers[place.slot]) : nullptr;
 }
 
 const Voxel* VoxelTable::Find(std::uint64_t key) const {
-  if (slots_.empty()) return nullptr;
-  const std::uint32_t number = slots_[SlotOf(key)];
-  return number == 0 ? nullptr : &At(number - 1);
+  if (lines_.empty()) return nullptr;
+  const Place place = PlaceOf(key);
+  return IsUsed(place) ? &At(lines_[place.line].numbers[place.slot]) : nullptr;
+}
+
+void VoxelTable::PrefetchVoxel(std::uint64_t key) const {
+  const Home home = HomeOf(key);
+  const Line& line = lines_[home.line];
+  for (std::size_t slot = 0; slot < line.num_used; ++slot) {
+    if (line.tags[slot] == home.tag) return __builtin_prefetch(&At(line.numbers[slot]));
+  }
 }
 
 Voxel* VoxelTable::FindOrCreate(std::uint64_t key, std::size_t max_voxels) {
-  if (slots_.empty()) Rehash(kMinSlots);
-  std::size_t slot = SlotOf(key);
+  if (lines_.empty()) Rehash(kMinLines);
+  Place place = PlaceOf(key);
   const bool full = num_voxels() >= max_voxels;
-  if (slots_[slot] != 0) {
-    Voxel& found = At(slots_[slot] - 1);
+  if (IsUsed(place)) {
+    Voxel& found = At(lines_[place.line].numbers[place.slot]);
     return found.weight == 0 && full ? nullptr : &found;
   }
   if (full) return nullptr;
-  if ((size_ + 1) * kMaxLoadDenominator > slots_.size() * kMaxLoadNumerator) {
-    Rehash(slots_.size() * 2);
-    slot = SlotOf(key);
+  if (size_ + 1 > lines_.size() * kMaxOfLine) {
+    Rehash(lines_.size() * 2);
+    place = PlaceOf(key);
   }
-  Voxel& voxel = Append(key);
-  slots_[slot] = static_cast<std::uint32_t>(size_);
+  Put(place, static_cast<std::uint32_t>(size_));
   ++num_empty_;  // Until its first sample.
-  return &voxel;
+  return &Append(key);
 }
 
 std::uint16_t VoxelTable::BeginPass() {
@@ -85,7 +94,7 @@ std::uint16_t VoxelTable::BeginPass() {
 }
 
 std::size_t VoxelTable::memory_bytes() const {
-  return slots_.size() * sizeof(std::uint32_t) + blocks_.size() * sizeof(Block);
+  return lines_.size() * sizeof(Line) + blocks_.size() * sizeof(Block);
 }
 
 Voxel& VoxelTable::Append(std::uint64_t key) {
@@ -96,17 +105,37 @@ Voxel& VoxelTable::Append(std::uint64_t key) {
   return voxel;
 }
 
-std::size_t VoxelTable::SlotOf(std::uint64_t key) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = HomeOf(key);
-  while (slots_[slot] != 0 && At(slots_[slot] - 1).key() != key) slot = (slot + 1) & mask;
-  return slot;
+VoxelTable::Home VoxelTable::HomeOf(std::uint64_t key) const {
+  const std::uint64_t hash = VoxelKey::Hash(key & ~kCubeBits);
+  const std::uint64_t place_in_cube = (key >> 40 & 4) | (key >> 20 & 2) | (key & 1);
+  return {hash & (lines_.size() - 1), static_cast<std::uint8_t>(hash >> 56 << 3 | place_in_cube)};
 }
 
-void VoxelTable::Rehash(std::size_t num_slots) {
-  slots_.assign(num_slots, 0);
+VoxelTable::Place VoxelTable::PlaceOf(std::uint64_t key) const {
+  const std::size_t mask = lines_.size() - 1;
+  const Home home = HomeOf(key);
+  for (std::size_t i = home.line;; i = (i + 1) & mask) {
+    const Line& line = lines_[i];
+    for (std::size_t slot = 0; slot < line.num_used; ++slot) {
+      if (line.tags[slot] == home.tag && At(line.numbers[slot]).key() == key) {
+        return {i, slot, home.tag};
+      }
+    }
+    if (line.num_used < kSlotsOfLine) return {i, line.num_used, home.tag};
+  }
+}
+
+void VoxelTable::Put(const Place& place, std::uint32_t number) {
+  Line& line = lines_[place.line];
+  line.numbers[place.slot] = number;
+  line.tags[place.slot] = place.tag;
+  ++line.num_used;
+}
+
+void VoxelTable::Rehash(std::size_t num_lines) {
+  lines_.assign(num_lines, Line());
   for (std::size_t i = 0; i < size_; ++i) {
-    slots_[SlotOf(At(i).key())] = static_cast<std::uint32_t>(i + 1);
+    Put(PlaceOf(At(i).key()), static_cast<std::uint32_t>(i));
   }
 }
 
@@ -118,9 +147,9 @@ void VoxelTable::Compact() {
   size_ = kept;
   num_empty_ = 0;
   blocks_.resize((size_ + kBlockSize - 1) / kBlockSize);
-  std::size_t num_slots = kMinSlots;
-  while (num_slots * kMaxLoadNumerator < size_ * kMaxLoadDenominator) num_slots *= 2;
-  Rehash(num_slots);
+  std::size_t num_lines = kMinLines;
+  while (num_lines * kMaxOfLine < size_) num_lines *= 2;
+  Rehash(num_lines);
 }
 
 }  // namespace semslam

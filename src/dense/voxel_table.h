@@ -45,7 +45,9 @@ struct Voxel {
 static_assert(sizeof(Voxel) == 52);
 
 // Voxels by key: an open-addressing table of 4-byte numbers into blocks of voxels, so that growing
-// moves no voxel and no voxel is a heap object of its own.
+// moves no voxel and no voxel is a heap object of its own. The map is far larger than the caches,
+// so what counts is how much memory a look touches: keys of a small cube, which are mostly wanted
+// together, share a cache line of slots, and tags spare the looks at voxels of other keys.
 class VoxelTable {
  public:
   // Null if there is none.
@@ -53,11 +55,8 @@ class VoxelTable {
   const Voxel* Find(std::uint64_t key) const;
   // For those who will look for many keys: asks for the memory that Find will look at first, and,
   // once that is there, for the voxel it will most likely find. Never in an empty table.
-  void PrefetchSlot(std::uint64_t key) const { __builtin_prefetch(&slots_[HomeOf(key)]); }
-  void PrefetchVoxel(std::uint64_t key) const {
-    const std::uint32_t number = slots_[HomeOf(key)];
-    if (number != 0) __builtin_prefetch(&At(number - 1));
-  }
+  void PrefetchSlot(std::uint64_t key) const { __builtin_prefetch(&lines_[HomeOf(key).line]); }
+  void PrefetchVoxel(std::uint64_t key) const;
   // Makes an empty one if there is none; null if that would exceed max_voxels.
   Voxel* FindOrCreate(std::uint64_t key, std::size_t max_voxels);
 
@@ -71,11 +70,16 @@ class VoxelTable {
   void Compact();
 
   // Of a voxel, until the next Compact.
-  std::uint32_t NumberOf(std::uint64_t key) const { return slots_[SlotOf(key)] - 1; }
+  std::uint32_t NumberOf(std::uint64_t key) const {
+    const Place place = PlaceOf(key);
+    return lines_[place.line].numbers[place.slot];
+  }
   Voxel& At(std::size_t number) { return (*blocks_[number / kBlockSize])[number % kBlockSize]; }
   const Voxel& At(std::size_t number) const {
     return (*blocks_[number / kBlockSize])[number % kBlockSize];
   }
+
+  void Prefetch(std::size_t number) const { __builtin_prefetch(&At(number)); }
 
   std::size_t num_voxels() const { return size_ - num_empty_; }
   std::size_t memory_bytes() const;
@@ -93,13 +97,32 @@ class VoxelTable {
   static constexpr std::size_t kBlockSize = 4096;
   using Block = std::array<Voxel, kBlockSize>;
 
-  Voxel& Append(std::uint64_t key);
-  std::size_t HomeOf(std::uint64_t key) const { return VoxelKey::Hash(key) & (slots_.size() - 1); }
-  std::size_t SlotOf(
-      std::uint64_t key) const;  // Holding the key, or the empty one where it belongs.
-  void Rehash(std::size_t num_slots);
+  // A cache line of slots, used from the first on.
+  static constexpr std::size_t kSlotsOfLine = 12;
+  struct alignas(64) Line {
+    std::array<std::uint32_t, kSlotsOfLine> numbers{};
+    std::array<std::uint8_t, kSlotsOfLine> tags{};
+    std::uint32_t num_used = 0;
+  };
+  struct Home {
+    std::size_t line;
+    std::uint8_t tag;
+  };
+  // Of a key, or the free slot where it belongs.
+  struct Place {
+    std::size_t line;
+    std::size_t slot;
+    std::uint8_t tag;
+  };
 
-  std::vector<std::uint32_t> slots_;  // Number + 1; 0: free. A power of two of them, or none.
+  Voxel& Append(std::uint64_t key);
+  Home HomeOf(std::uint64_t key) const;
+  Place PlaceOf(std::uint64_t key) const;
+  bool IsUsed(const Place& place) const { return place.slot < lines_[place.line].num_used; }
+  void Put(const Place& place, std::uint32_t number);
+  void Rehash(std::size_t num_lines);
+
+  std::vector<Line> lines_;  // A power of two of them, or none.
   std::vector<std::unique_ptr<Block>> blocks_;
   std::size_t size_ = 0;
   std::size_t num_empty_ = 0;

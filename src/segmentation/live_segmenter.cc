@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -41,6 +42,17 @@ std::int64_t SquaredDistance(std::uint64_t a, std::uint64_t b) {
     sum += (from[axis] - to[axis]) * (from[axis] - to[axis]);
   }
   return sum;
+}
+
+// Work is counted, not timed, so that the same calls give the same regions.
+std::int64_t WorkOfStep(std::size_t max_voxels) {
+  return static_cast<std::int64_t>(max_voxels - max_voxels / 5);
+}
+
+// To take note of a voxel's coming or going, or to look one up, costs so much of segmenting it.
+std::int64_t WorkOfBooks(std::size_t num_voxels) {
+  constexpr std::size_t kVoxelsForTheWorkOfOne = 8;
+  return static_cast<std::int64_t>(num_voxels / kVoxelsForTheWorkOfOne);
 }
 
 }  // namespace
@@ -142,6 +154,11 @@ std::uint64_t LiveSegmenter::BlockOf(std::uint64_t voxel) const {
          static_cast<std::uint64_t>(cell[2] >> block_bits_);
 }
 
+bool LiveSegmenter::HasVoxels(std::uint64_t block) const {
+  const std::uint32_t number = numbers_.Find(block);
+  return number != KeyNumbers::kNone && !blocks_[number].voxels.empty();
+}
+
 SegmentId LiveSegmenter::Resolve(SegmentId id) const {
   while (joined_to_[id] != id) id = joined_to_[id];
   return id;
@@ -175,7 +192,7 @@ LiveSegmenter::Region LiveSegmenter::Collect(std::vector<std::uint64_t> blocks) 
   Region region{{}, std::move(blocks)};
   std::sort(region.blocks.begin(), region.blocks.end());
   for (const std::uint64_t block : region.blocks) {
-    for (const auto& [key, id] : blocks_.at(block).voxels) region.voxels.push_back(key);
+    for (const auto& [key, id] : At(block).voxels) region.voxels.push_back(key);
   }
   return region;
 }
@@ -188,10 +205,24 @@ void LiveSegmenter::Rank(std::uint64_t key, Block& block) {
   block.rank = change;
 }
 
+// What may be spent on a region, in voxels: the unit of work is to segment one.
+std::int64_t LiveSegmenter::Allowance() const {
+  return WorkOfStep(options_.max_voxels) + carried_ - WorkOfBooks(num_updated_);
+}
+
+// Regions of equal size differ in cost, mostly because the segmenter takes larger voxels where
+// points are sparse, as they are where the map is young. So the next region is as much larger or
+// smaller as this one cost less or more than it should.
+void LiveSegmenter::Account(std::size_t num_in_region, std::size_t num_segmented) {
+  const std::int64_t left =
+      Allowance() - WorkOfBooks(num_in_region) - static_cast<std::int64_t>(num_segmented);
+  const std::int64_t most = WorkOfStep(options_.max_voxels) / 4;  // No step pays for an odd one.
+  carried_ = std::clamp(left, -most, most);
+}
+
 LiveSegmenter::Region LiveSegmenter::NextRegion() const {
-  constexpr std::size_t kUpdatesOfAVoxel = 12;  // That cost as much as to segment it.
-  const std::size_t max_voxels =
-      options_.max_voxels - std::min(options_.max_voxels / 2, num_updated_ / kUpdatesOfAVoxel);
+  const auto limit = static_cast<std::int64_t>(options_.max_voxels);
+  const auto max_voxels = static_cast<std::size_t>(std::clamp(Allowance(), limit / 2, limit));
   std::vector<std::uint64_t> taken;
   std::set<std::uint64_t> known;
   std::size_t num_voxels = 0;
@@ -202,11 +233,11 @@ LiveSegmenter::Region LiveSegmenter::NextRegion() const {
     while (!open.empty()) {
       const std::uint64_t key = open.begin()->second;
       open.erase(open.begin());
-      num_voxels += blocks_.at(key).voxels.size();
+      num_voxels += At(key).voxels.size();
       if (num_voxels > max_voxels && !taken.empty()) return Collect(std::move(taken));
       taken.push_back(key);
       VisitAround(key, [&, start = start](std::uint64_t other) {
-        if (!blocks_.contains(other) || !known.insert(other).second) return;
+        if (!HasVoxels(other) || !known.insert(other).second) return;
         open.emplace(SquaredDistance(start, other), other);
       });
     }
@@ -217,16 +248,17 @@ LiveSegmenter::Region LiveSegmenter::NextRegion() const {
 LiveSegmenter::Region LiveSegmenter::WholeMap() const {
   std::vector<std::uint64_t> all;
   all.reserve(blocks_.size());
-  for (const auto& [key, block] : blocks_) all.push_back(key);
+  for (const std::uint64_t key : numbers_.keys()) {
+    if (HasVoxels(key)) all.push_back(key);
+  }
   return Collect(std::move(all));
 }
 
 bool LiveSegmenter::IsInside(std::uint64_t block, const Region& region) const {
   bool is_inside = true;
   VisitAround(block, [&](std::uint64_t other) {
-    is_inside =
-        is_inside && (!blocks_.contains(other) ||
-                      std::binary_search(region.blocks.begin(), region.blocks.end(), other));
+    is_inside = is_inside && (!HasVoxels(other) || std::binary_search(region.blocks.begin(),
+                                                                      region.blocks.end(), other));
   });
   return is_inside;
 }
@@ -235,10 +267,11 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   SEMSLAM_CHECK(cloud.points.size() == region.voxels.size())
       << cloud.points.size() << " points, " << region.voxels.size() << " voxels";
   const Segmentation found = Segmenter(options_.segmentation).Segment(cloud);
+  Account(region.voxels.size(), found.num_voxels);
   std::vector<SegmentId> old_ids;
   old_ids.reserve(region.voxels.size());
   for (const std::uint64_t block : region.blocks) {
-    for (const auto& [key, id] : blocks_.at(block).voxels) old_ids.push_back(Resolve(id));
+    for (const auto& [key, id] : At(block).voxels) old_ids.push_back(Resolve(id));
   }
   SEMSLAM_CHECK(old_ids.size() == region.voxels.size()) << "the map has changed";
   const std::vector<SegmentId> ids =
@@ -247,7 +280,7 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   std::size_t i = 0;
   bool is_any_inside = false;
   for (const std::uint64_t key : region.blocks) {
-    Block& block = blocks_.at(key);
+    Block& block = At(key);
     if (!IsInside(key, region)) {
       i += block.voxels.size();
       continue;
@@ -260,16 +293,17 @@ void LiveSegmenter::Segment(const Region& region, const PointCloudView& cloud) {
   if (is_any_inside) return;
   // Blocks too full for a region with a border: not again and again.
   for (const std::uint64_t key : region.blocks) {
-    blocks_.at(key).num_changed = 0;
-    Rank(key, blocks_.at(key));
+    At(key).num_changed = 0;
+    Rank(key, At(key));
   }
 }
 
 SegmentId LiveSegmenter::IdOf(std::uint64_t voxel) const {
-  const auto block = blocks_.find(BlockOf(voxel));
-  if (block == blocks_.end()) return 0;
-  const auto place = Place(block->second.voxels, voxel);
-  if (place == block->second.voxels.end() || place->first != voxel) return 0;
+  const std::uint64_t block = BlockOf(voxel);
+  if (!HasVoxels(block)) return 0;
+  const VoxelIds& voxels = At(block).voxels;
+  const auto place = Place(voxels, voxel);
+  if (place == voxels.end() || place->first != voxel) return 0;
   return Resolve(place->second);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the semslam authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <limits>
+#include <bit>
 #include <utility>
 
+#include "semslam/base/key_numbers.h"
 #include "semslam/segmentation/live_segmenter.h"
 
 #include "segmentation/live_keys.h"
@@ -20,9 +21,8 @@ class LiveSegmenter::BlockFinder {
   Block* Find(std::uint64_t voxel) {
     const std::uint64_t key = live_->BlockOf(voxel);
     if (block_ != nullptr && key == key_) return block_;
-    const auto found = live_->blocks_.find(key);
     key_ = key;
-    block_ = found == live_->blocks_.end() ? nullptr : &found->second;
+    block_ = live_->HasVoxels(key) ? &live_->At(key) : nullptr;
     return block_;
   }
   // Null if it is not known.
@@ -46,59 +46,62 @@ void LiveSegmenter::Update(const Changes& changes) {
     const auto* voxel = finder.FindVoxel(from);
     if (voxel != nullptr && voxel->second != 0) carried.emplace_back(to, voxel->second);
   }
-  const std::vector<std::uint64_t> vanished = SortedByBlock(changes.vanished);
-  const std::vector<std::uint64_t> appeared = SortedByBlock(changes.appeared);
-  const auto end_of_block = [&](const auto& keys, std::size_t i, std::uint64_t block) {
-    while (i < keys.size() && BlockOf(keys[i]) == block) ++i;
-    return i;
-  };
+  KeyNumbers blocks(0);
+  const std::vector<std::uint64_t> vanished = SortedByBlock(changes.vanished, blocks);
+  const std::vector<std::uint64_t> appeared = SortedByBlock(changes.appeared, blocks);
   num_updated_ = vanished.size() + appeared.size();
   std::size_t v = 0;
   std::size_t a = 0;
-  while (v < vanished.size() || a < appeared.size()) {
-    std::uint64_t block = std::numeric_limits<std::uint64_t>::max();
-    if (v < vanished.size()) block = std::min(block, BlockOf(vanished[v]));
-    if (a < appeared.size()) block = std::min(block, BlockOf(appeared[a]));
-    const std::size_t v_end = end_of_block(vanished, v, block);
-    const std::size_t a_end = end_of_block(appeared, a, block);
-    const auto place = blocks_.try_emplace(block).first;
-    RemoveVoxels(std::span(vanished).subspan(v, v_end - v), place->second);
-    AddVoxels(std::span(appeared).subspan(a, a_end - a), place->second);
-    Rank(block, place->second);
-    if (place->second.voxels.empty()) {
-      changed_.erase({place->second.rank, block});
-      blocks_.erase(place);
-    }
-    v = v_end;
-    a = a_end;
+  for (const std::uint64_t block : blocks.keys()) {
+    const auto of_block = [&](const std::vector<std::uint64_t>& keys, std::size_t& next) {
+      const std::size_t first = next;
+      while (next < keys.size() && BlockOf(keys[next]) == block) ++next;
+      return std::span(keys).subspan(first, next - first);
+    };
+    UpdateBlock(block, of_block(vanished, v), of_block(appeared, a));
   }
-  finder = BlockFinder(*this);  // Blocks have come and gone.
+  finder = BlockFinder(*this);  // Blocks have moved.
   for (const auto& [key, id] : carried) {
     auto* voxel = finder.FindVoxel(key);
     if (voxel != nullptr && voxel->second == 0) SetId(*voxel, id);
   }
 }
 
-// Each once, so that those of a block follow each other, by key.
-std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(
-    const std::vector<std::uint64_t>& voxels) const {
+void LiveSegmenter::UpdateBlock(std::uint64_t key,
+                                std::span<const std::uint64_t> vanished,
+                                std::span<const std::uint64_t> appeared) {
+  const std::uint32_t number = numbers_.Insert(key);
+  if (number == blocks_.size()) blocks_.emplace_back();
+  Block& block = blocks_[number];
+  Merge(vanished, appeared, block);
+  if (block.voxels.empty()) {
+    block.voxels.shrink_to_fit();
+    block.num_changed = 0;
+  }
+  Rank(key, block);
+}
+
+// Each once, block by block in the order of their numbers, those of a block by key.
+std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(const std::vector<std::uint64_t>& voxels,
+                                                        KeyNumbers& blocks) const {
   const std::uint64_t inner = static_cast<std::uint64_t>(options_.block_size) - 1;
   std::vector<KeyedIndex> order;
   order.reserve(voxels.size());
+  std::uint64_t last = 0;
+  std::uint64_t number = KeyNumbers::kNone;
   for (const std::uint64_t key : voxels) {
-    // The bits within the block, below those of the block.
-    const auto cell = CellOf(key);
-    std::uint64_t place = 0;
-    for (const std::int64_t c : cell) {
-      place =
-          place << (kVoxelAxisBits - block_bits_) | static_cast<std::uint64_t>(c) >> block_bits_;
-    }
-    for (const std::int64_t c : cell) {
+    const std::uint64_t block = BlockOf(key);
+    if (number == KeyNumbers::kNone || block != last) number = blocks.Insert(block);
+    last = block;
+    std::uint64_t place = number;
+    for (const std::int64_t c : CellOf(key)) {
       place = place << block_bits_ | (static_cast<std::uint64_t>(c) & inner);
     }
     order.push_back({place, static_cast<std::uint32_t>(order.size())});
   }
-  RadixSort(order, 3 * kVoxelAxisBits, 1);
+  // Few bits, as numbers are small.
+  const auto number_bits = static_cast<int>(std::bit_width(blocks.keys().size()));
+  RadixSort(order, 3 * block_bits_ + number_bits, 1);
   std::vector<std::uint64_t> sorted;
   sorted.reserve(voxels.size());
   for (const KeyedIndex& item : order) {
@@ -107,36 +110,29 @@ std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(
   return sorted;
 }
 
-void LiveSegmenter::RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block) {
-  if (vanished.empty()) return;
-  const std::size_t size_before = block.voxels.size();
-  auto next = vanished.begin();
-  std::erase_if(block.voxels, [&](const std::pair<std::uint64_t, SegmentId>& voxel) {
-    while (next != vanished.end() && *next < voxel.first) ++next;
-    if (next == vanished.end() || *next != voxel.first) return false;
+void LiveSegmenter::Merge(std::span<const std::uint64_t> vanished,
+                          std::span<const std::uint64_t> appeared,
+                          Block& block) {
+  merged_.clear();
+  std::size_t num_removed = 0;
+  auto gone = vanished.begin();
+  const auto keep_unless_gone = [&](const std::pair<std::uint64_t, SegmentId>& voxel) {
+    while (gone != vanished.end() && *gone < voxel.first) ++gone;
+    if (gone == vanished.end() || *gone != voxel.first) return merged_.push_back(voxel);
     const SegmentId id = Resolve(voxel.second);
     if (id != 0) --num_voxels_of_[id];
-    return true;
-  });
-  const std::size_t num_removed = size_before - block.voxels.size();
-  num_voxels_ -= num_removed;
-  block.num_changed += num_removed;
-}
-
-void LiveSegmenter::AddVoxels(std::span<const std::uint64_t> appeared, Block& block) {
-  if (appeared.empty()) return;
-  std::vector<std::pair<std::uint64_t, SegmentId>> merged;
-  merged.reserve(block.voxels.size() + appeared.size());
+    ++num_removed;
+  };
   auto old = block.voxels.cbegin();
   for (const std::uint64_t key : appeared) {
-    while (old != block.voxels.cend() && old->first < key) merged.push_back(*old++);
-    if (old == block.voxels.cend() || old->first != key) merged.emplace_back(key, 0);
+    while (old != block.voxels.cend() && old->first <= key) keep_unless_gone(*old++);
+    if (merged_.empty() || merged_.back().first != key) merged_.emplace_back(key, 0);
   }
-  merged.insert(merged.end(), old, block.voxels.cend());
-  const std::size_t num_added = merged.size() - block.voxels.size();
-  block.voxels = std::move(merged);
-  num_voxels_ += num_added;
-  block.num_changed += num_added;
+  std::for_each(old, block.voxels.cend(), keep_unless_gone);
+  const std::size_t num_added = merged_.size() + num_removed - block.voxels.size();
+  block.voxels.assign(merged_.begin(), merged_.end());
+  num_voxels_ += num_added - num_removed;
+  block.num_changed += num_added + num_removed;
 }
 
 }  // namespace semslam

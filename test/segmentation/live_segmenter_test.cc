@@ -176,6 +176,34 @@ TEST(LiveSegmenter, StepsAreNoLargerThanARegionAndComeToAnEnd) {
   for (const auto& [key, point] : map.points) ASSERT_NE(map.live.IdOf(key), 0U);
 }
 
+TEST(LiveSegmenter, TheRegionIsSmallerAfterALargeUpdate) {
+  test::SyntheticScene floor;
+  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
+  LiveSegmenter::Options options = LargeRegions();
+  options.max_voxels = 20000;
+  GrowingMap map(options);
+  map.Add(floor, kEverything);
+  const std::size_t after_large = map.live.NextRegion().voxels.size();
+  map.live.Update({});
+  EXPECT_LT(after_large + 3000, map.live.NextRegion().voxels.size());
+}
+
+// Points that are not finite cost hardly anything to segment.
+TEST(LiveSegmenter, WhatAStepLeavesGoesToTheNext) {
+  test::SyntheticScene floor;
+  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
+  LiveSegmenter::Options options = LargeRegions();
+  options.max_voxels = 10000;
+  GrowingMap map(options);
+  map.Add(floor, kEverything);
+  map.live.Update({});
+  const LiveSegmenter::Region region = map.live.NextRegion();
+  const std::vector<Eigen::Vector3f> nowhere(
+      region.voxels.size(), Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+  map.live.Segment(region, {nowhere, {}});
+  EXPECT_GT(map.live.NextRegion().voxels.size(), region.voxels.size() + 1000);
+}
+
 // A region sees only a part of the floor: the rest is no other segment.
 TEST(LiveSegmenter, AFloorSegmentedBitByBitIsOne) {
   test::SyntheticScene floor;

@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <set>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "semslam/base/key_numbers.h"
 #include "semslam/segmentation/segmenter.h"
 
 namespace semslam {
@@ -24,7 +24,7 @@ class LiveSegmenter {
   struct Options {
     Segmenter::Options segmentation;
     int block_size = 16;             // Voxels of a cube's side; the map is kept in such cubes.
-    std::size_t max_voxels = 20000;  // Of a region.
+    std::size_t max_voxels = 25000;  // Of a region. A step costs as much as four fifths of them.
     // How many voxels of a block must have appeared or vanished, and their share in it, before it
     // is worth a step; so is a block most of which is new.
     std::size_t min_changed = 16;
@@ -52,8 +52,8 @@ class LiveSegmenter {
   void Update(const Changes& changes);
 
   // What lies around the block that has changed most, and around others while there is room; empty
-  // if nothing much has changed. After a large update it is smaller, so that both together cost no
-  // more than after a small one.
+  // if nothing much has changed. There is room as far as the work of a step goes, of which the
+  // update takes its part; what the last step took more or less is made good for.
   Region NextRegion() const;
   // The whole map: for when all of it has moved.
   Region WholeMap() const;
@@ -69,10 +69,11 @@ class LiveSegmenter {
   std::size_t num_voxels() const { return num_voxels_; }
 
  private:
+  using VoxelIds = std::vector<std::pair<std::uint64_t, SegmentId>>;
   struct Block {
-    std::vector<std::pair<std::uint64_t, SegmentId>> voxels;  // Ascending by key.
-    std::size_t num_changed = 0;                              // Since it was segmented.
-    std::size_t rank = 0;  // Its change in `changed_`; 0: not in it.
+    VoxelIds voxels;              // Ascending by key.
+    std::size_t num_changed = 0;  // Since it was segmented.
+    std::size_t rank = 0;         // Its change in `changed_`; 0: not in it.
   };
   // By change, the most first; then by key.
   struct ChangedMore {
@@ -85,12 +86,22 @@ class LiveSegmenter {
   class BlockFinder;
 
   std::uint64_t BlockOf(std::uint64_t voxel) const;
-  std::vector<std::uint64_t> SortedByBlock(const std::vector<std::uint64_t>& voxels) const;
-  void RemoveVoxels(std::span<const std::uint64_t> vanished, Block& block);
-  void AddVoxels(std::span<const std::uint64_t> appeared, Block& block);
+  bool HasVoxels(std::uint64_t block) const;
+  const Block& At(std::uint64_t block) const { return blocks_[numbers_.Find(block)]; }
+  Block& At(std::uint64_t block) { return blocks_[numbers_.Find(block)]; }
+  std::vector<std::uint64_t> SortedByBlock(const std::vector<std::uint64_t>& voxels,
+                                           KeyNumbers& blocks) const;
+  void UpdateBlock(std::uint64_t key,
+                   std::span<const std::uint64_t> vanished,
+                   std::span<const std::uint64_t> appeared);
+  void Merge(std::span<const std::uint64_t> vanished,
+             std::span<const std::uint64_t> appeared,
+             Block& block);
   std::size_t ChangeOf(const Block& block) const;  // 0: not worth a step.
   void Rank(std::uint64_t key, Block& block);      // After its change has changed.
   Region Collect(std::vector<std::uint64_t> blocks) const;
+  std::int64_t Allowance() const;
+  void Account(std::size_t num_in_region, std::size_t num_segmented);
   bool IsInside(std::uint64_t block, const Region& region) const;
   SegmentId Resolve(SegmentId id) const;
   void Join(SegmentId a, SegmentId b);
@@ -98,11 +109,14 @@ class LiveSegmenter {
 
   Options options_;
   int block_bits_ = 0;
-  std::map<std::uint64_t, Block> blocks_;
+  KeyNumbers numbers_{0};      // Of the blocks.
+  std::vector<Block> blocks_;  // By number; those that have lost all voxels stay.
+  VoxelIds merged_;            // What a block is merged in; kept to save the allocation.
   // Those worth a step.
   std::set<std::pair<std::size_t, std::uint64_t>, ChangedMore> changed_;
   std::size_t num_voxels_ = 0;
   std::size_t num_updated_ = 0;  // Voxels that the last update told of.
+  std::int64_t carried_ = 0;     // Work that the last step left to the next; less than 0: owes it.
   // By id, first that of no segment: the id it was joined to, or itself; and its voxels.
   std::vector<SegmentId> joined_to_ = {0};
   std::vector<std::size_t> num_voxels_of_ = {0};
