@@ -3,6 +3,9 @@
 
 #include "mapping/bundle_snapshot.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace semslam {
 namespace {
 
@@ -40,16 +43,24 @@ void AddLandmark(const Map& map, LandmarkId id, OtherObservers others, BundleSna
 
 void RemoveOutliers(const BundleSnapshot& snapshot,
                     const BundleSolution& solution,
-                    std::size_t first,
-                    std::size_t last,
-                    Map& map) {
-  for (std::size_t i = first; i < last; ++i) {
-    if (solution.is_inlier[i] != 0) continue;
-    const LandmarkId landmark = snapshot.landmarks[snapshot.bundle.observations[i].point];
-    const KeyframeId keyframe = snapshot.observations[i].keyframe;
-    if (map.FindLandmark(landmark) != nullptr && map.Sees(keyframe, landmark)) {
-      map.RemoveObservation(landmark, keyframe);
-    }
+                    SharedMap& shared_map) {
+  constexpr std::size_t kNumPerLock = 64;
+  std::vector<std::size_t> outliers;
+  for (std::size_t i = 0; i < snapshot.observations.size(); ++i) {
+    if (solution.is_inlier[i] == 0) outliers.push_back(i);
+  }
+  for (std::size_t first = 0; first < outliers.size(); first += kNumPerLock) {
+    const std::size_t last = std::min(outliers.size(), first + kNumPerLock);
+    shared_map.Write([&](Map& map) {
+      for (std::size_t k = first; k < last; ++k) {
+        const LandmarkId landmark =
+            snapshot.landmarks[snapshot.bundle.observations[outliers[k]].point];
+        const KeyframeId keyframe = snapshot.observations[outliers[k]].keyframe;
+        if (map.FindLandmark(landmark) != nullptr && map.Sees(keyframe, landmark)) {
+          map.RemoveObservation(landmark, keyframe);
+        }
+      }
+    });
   }
 }
 

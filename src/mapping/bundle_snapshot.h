@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -33,11 +32,10 @@ void AddLandmark(const Map& map,
                  OtherObservers others,
                  BundleSnapshot* snapshot);
 
-// Takes the observations [first, last) that do not fit the solution out of the map.
+// Takes the observations that do not fit the solution out of the map, a few at a time, so that the
+// lock is held for well below a millisecond.
 void RemoveOutliers(const BundleSnapshot& snapshot,
                     const BundleSolution& solution,
-                    std::size_t first,
-                    std::size_t last,
-                    Map& map);
+                    SharedMap& shared_map);
 
 }  // namespace semslam

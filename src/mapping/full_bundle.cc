@@ -14,7 +14,7 @@
 namespace semslam {
 namespace {
 
-constexpr std::size_t kNumPerLock = 512;  // Landmarks or observations: well below a millisecond.
+constexpr std::size_t kNumPerLock = 512;  // Landmarks: well below a millisecond.
 
 // Not of one moment, which does no harm: positions are where the adjustment begins, and an
 // observation holds whenever it was made.
@@ -81,10 +81,7 @@ FullBundleReport AdjustWholeMap(SharedMap& shared_map,
   if (solution.stopped) return report;
   report.finished = shared_map.Write([&](Map& map) { return Commit(snapshot, solution, map); });
   if (!report.finished) return report;
-  for (std::size_t first = 0; first < snapshot.observations.size(); first += kNumPerLock) {
-    const std::size_t last = std::min(snapshot.observations.size(), first + kNumPerLock);
-    shared_map.Write([&](Map& map) { RemoveOutliers(snapshot, solution, first, last, map); });
-  }
+  RemoveOutliers(snapshot, solution, shared_map);
   UpdateAppearances(shared_map, snapshot.landmarks);
   return report;
 }

@@ -79,7 +79,6 @@ void Commit(const BundleSnapshot& snapshot, const BundleSolution& solution, Map&
       map.SetPosition(snapshot.landmarks[i], solution.p_world[i]);
     }
   }
-  RemoveOutliers(snapshot, solution, 0, snapshot.observations.size(), map);
 }
 
 }  // namespace
@@ -101,7 +100,9 @@ LocalBundleReport AdjustNeighbourhood(const MappingContext& context,
     return true;
   });
   report.finished = committed && !solution.stopped;
-  if (committed) UpdateAppearances(context.map, snapshot.landmarks);
+  if (!committed) return report;
+  RemoveOutliers(snapshot, solution, context.map);
+  UpdateAppearances(context.map, snapshot.landmarks);
   return report;
 }
 
