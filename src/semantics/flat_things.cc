@@ -40,8 +40,9 @@ std::vector<Cell> CellsInBox(SegmentId segment,
       CellRange::Of(box, keyframe.cloud->stride(), columns, keyframe.cloud->grid_rows());
   std::vector<Cell> cells;
   for (int row = range.first_row; row < range.last_row; ++row) {
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
     for (int column = range.first_column; column < range.last_column; ++column) {
-      const std::uint32_t point = keyframe.points[static_cast<std::size_t>(row * columns + column)];
+      const std::uint32_t point = keyframe.points[first + column];
       if (point == kNoPoint || segmentation.segment_of_point[point] != segment) continue;
       const Cell cell = CellOf(cloud.positions[point]);
       if (cells.empty() || cells.back() != cell) cells.push_back(cell);
@@ -92,9 +93,9 @@ std::optional<Plane> FindSurface(const std::vector<Eigen::Vector3d>& around,
   std::size_t most = 0;
   const auto size = static_cast<std::uint32_t>(around.size());
   for (int trial = 0; trial < kNumTrials && size >= kMinPoints; ++trial) {
-    const Eigen::Vector3d a = around[random.Index(size)];
-    const Eigen::Vector3d b = around[random.Index(size)];
-    const Eigen::Vector3d c = around[random.Index(size)];
+    const Eigen::Vector3d& a = around[random.Index(size)];
+    const Eigen::Vector3d& b = around[random.Index(size)];
+    const Eigen::Vector3d& c = around[random.Index(size)];
     Eigen::Vector3d normal = (b - a).cross(c - a);
     if (normal.norm() < kMinTriangle) continue;
     normal.normalize();
