@@ -29,8 +29,9 @@ void ReadCamera(SettingsFile& file, Settings& settings) {
   file.Require("Camera.fps", &settings.fps, Range::Positive());
   file.Require("Camera.bf", &settings.bf, Range::Positive());
   file.Read("Camera.RGB", &settings.is_rgb);
+  constexpr double kMaxReadout = RollingShutter::kMaxReadoutSeconds;
   file.Read("Camera.readout", &settings.tracking.shutter.readout_seconds,
-            Range::Between(-0.05, 0.05));
+            Range::Between(-kMaxReadout, kMaxReadout));
   file.Read("Camera.autoExposure", &settings.auto_exposure);
   file.Require("ThDepth", &settings.close_depth_factor, Range::Positive());
   file.Require("DepthMapFactor", &settings.depth_factor, Range::Positive());

@@ -14,7 +14,6 @@
 namespace semslam {
 namespace {
 
-constexpr double kMaxReadout = 0.05;  // Seconds; no camera of 30 Hz takes longer.
 // Of the filter. An error of the map shows in many features and many frames alike, so that a frame
 // tells less than its features would if they erred independently; and what it tells is in part what
 // the map was made with, hence the drift: later frames know more.
@@ -71,7 +70,8 @@ double MeanDepth(const Frame& frame) {
 }  // namespace
 
 void RollingShutter::Options::Validate() const {
-  SEMSLAM_CHECK(!readout_seconds || std::abs(*readout_seconds) <= kMaxReadout) << *readout_seconds;
+  SEMSLAM_CHECK(!readout_seconds || std::abs(*readout_seconds) <= kMaxReadoutSeconds)
+      << *readout_seconds;
 }
 
 RollingShutter::RollingShutter(const Options& options,
@@ -128,7 +128,7 @@ void RollingShutter::Update(double measured, double information) {
   variance_ += kDriftSigma * kDriftSigma;
   variance_ /= 1 + variance_ * information;
   estimate_ += variance_ * information * (measured - estimate_);
-  estimate_ = std::clamp(estimate_, -kMaxReadout, kMaxReadout);
+  estimate_ = std::clamp(estimate_, -kMaxReadoutSeconds, kMaxReadoutSeconds);
   const double significance = std::abs(estimate_) / std::sqrt(variance_);
   const bool is_used = significance > (readout_seconds_ != 0 ? 0.5 : 1.0) * kSignificance;
   readout_seconds_ = is_used ? estimate_ : 0;

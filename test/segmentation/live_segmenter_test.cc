@@ -101,11 +101,19 @@ class GrowingMap {
   std::map<std::uint64_t, MapPoint> points;
 };
 
-LiveSegmenter::Options LargeRegions() {
+LiveSegmenter::Options Regions(std::size_t max_voxels) {
   LiveSegmenter::Options options;
   options.segmentation.num_threads = 1;
-  options.max_voxels = 1'000'000;
+  options.max_voxels = max_voxels;
   return options;
+}
+LiveSegmenter::Options LargeRegions() { return Regions(1'000'000); }
+
+// Larger than small regions.
+test::SyntheticScene WideFloor() {
+  test::SyntheticScene floor;
+  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
+  return floor;
 }
 
 const auto kEverything = [](const Eigen::Vector3f&) { return true; };
@@ -160,10 +168,8 @@ TEST(LiveSegmenter, PiecesThatTurnOutToBeOneKeepTheOldestId) {
 }
 
 TEST(LiveSegmenter, StepsAreNoLargerThanARegionAndComeToAnEnd) {
-  test::SyntheticScene floor;
-  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
-  LiveSegmenter::Options options = LargeRegions();
-  options.max_voxels = 10000;
+  const test::SyntheticScene floor = WideFloor();
+  const LiveSegmenter::Options options = Regions(10000);
   GrowingMap map(options);
   map.Add(floor, kEverything);
   int num_steps = 0;
@@ -177,10 +183,8 @@ TEST(LiveSegmenter, StepsAreNoLargerThanARegionAndComeToAnEnd) {
 }
 
 TEST(LiveSegmenter, TheRegionIsSmallerAfterALargeUpdate) {
-  test::SyntheticScene floor;
-  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
-  LiveSegmenter::Options options = LargeRegions();
-  options.max_voxels = 20000;
+  const test::SyntheticScene floor = WideFloor();
+  const LiveSegmenter::Options options = Regions(20000);
   GrowingMap map(options);
   map.Add(floor, kEverything);
   const std::size_t after_large = map.live.NextRegion().voxels.size();
@@ -190,10 +194,8 @@ TEST(LiveSegmenter, TheRegionIsSmallerAfterALargeUpdate) {
 
 // Points that are not finite cost hardly anything to segment.
 TEST(LiveSegmenter, WhatAStepLeavesGoesToTheNext) {
-  test::SyntheticScene floor;
-  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
-  LiveSegmenter::Options options = LargeRegions();
-  options.max_voxels = 10000;
+  const test::SyntheticScene floor = WideFloor();
+  const LiveSegmenter::Options options = Regions(10000);
   GrowingMap map(options);
   map.Add(floor, kEverything);
   map.live.Update({});
@@ -206,10 +208,8 @@ TEST(LiveSegmenter, WhatAStepLeavesGoesToTheNext) {
 
 // A region sees only a part of the floor: the rest is no other segment.
 TEST(LiveSegmenter, AFloorSegmentedBitByBitIsOne) {
-  test::SyntheticScene floor;
-  floor.AddRectangle({0, 0, 0}, {1.5, 0, 0}, {0, 1.5, 0}, 1);
-  LiveSegmenter::Options options = LargeRegions();
-  options.max_voxels = 15000;
+  const test::SyntheticScene floor = WideFloor();
+  const LiveSegmenter::Options options = Regions(15000);
   GrowingMap map(options);
   float last = -1;
   for (const float reach : {0.6F, 1.1F, 1.6F}) {

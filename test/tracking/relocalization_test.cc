@@ -12,6 +12,7 @@
 
 #include "support/matchers.h"
 #include "support/synthetic_frames.h"
+#include "tracking/noisy_world.h"
 
 namespace semslam {
 namespace {
@@ -19,18 +20,10 @@ namespace {
 using testing::Rigid3Near;
 using testing::SyntheticWorld;
 
-class RelocalizationTest : public ::testing::Test {
+class RelocalizationTest : public testing::NoisyWorldTest {
  protected:
   static constexpr int kNumMapped = 80;
 
-  static const SyntheticWorld& World() {
-    static const SyntheticWorld world({.pixel_noise = 0.5});
-    return world;
-  }
-  static std::shared_ptr<const Vocabulary> Words() {
-    static const std::shared_ptr<const Vocabulary> vocabulary = World().Train();
-    return vocabulary;
-  }
   static Tracking::Options TrackingOptions() {
     Tracking::Options options;
     options.min_keyframes_to_keep = 2;

@@ -15,6 +15,7 @@
 #include "semslam/tracking/tracking.h"
 
 #include "support/synthetic_frames.h"
+#include "tracking/noisy_world.h"
 
 namespace semslam {
 namespace {
@@ -33,17 +34,8 @@ Rigid3 Shaking(double t) {
           {swing(0.08, 4.3), swing(-0.06, 5.3), swing(0.05, 3.1)}};
 }
 
-class RollingShutterTest : public ::testing::Test {
+class RollingShutterTest : public testing::NoisyWorldTest {
  protected:
-  static const SyntheticWorld& World() {
-    static const SyntheticWorld world({.pixel_noise = 0.5});
-    return world;
-  }
-  static std::shared_ptr<const Vocabulary> Words() {
-    static const std::shared_ptr<const Vocabulary> vocabulary = World().Train();
-    return vocabulary;
-  }
-
   struct Outcome {
     double rms_error = 0;  // Metres, over the last second.
     double readout = 0;    // As it was corrected for in the end.

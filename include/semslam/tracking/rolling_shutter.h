@@ -26,6 +26,8 @@ namespace semslam {
 // to the camera's velocity, cannot be explained by a pose. One thread at a time.
 class RollingShutter {
  public:
+  static constexpr double kMaxReadoutSeconds = 0.05;  // No camera of 30 Hz takes longer.
+
   struct Options {
     // First to last row, seconds; < 0: rows come from below; 0: all at once. Nothing: estimated.
     std::optional<double> readout_seconds;
