@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tracking/map_wait.h"
+
 namespace semslam {
 namespace {
 
@@ -47,21 +49,28 @@ std::vector<KeyframeId> WithNeighbours(const Map& map, const std::map<KeyframeId
 
 }  // namespace
 
-bool LocalMap::Update(const SharedMap& shared_map, const TrackedFrame& frame) {
-  return shared_map.Read([&](const Map& map) {
-    const std::map<KeyframeId, int> votes = CountVotes(map, frame);
-    if (votes.empty()) return false;
-    reference_ = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-                   return a.second < b.second;
-                 })->first;
-    T_world_reference_ = map.keyframe(reference_).T_world_camera;
-    std::vector<KeyframeId> keyframes = WithNeighbours(map, votes);
-    if (version_ == map.version() && keyframes == keyframes_) return true;
-    landmarks_ = map.CopyLandmarksSeenBy(keyframes);
-    keyframes_ = std::move(keyframes);
-    version_ = map.version();
-    return true;
-  });
+bool LocalMap::Update(const SharedMap& shared_map,
+                      const TrackedFrame& frame,
+                      std::uint64_t epoch_of_frame) {
+  const auto copy = [&](const Map& map) { return CopyFrom(map, frame); };
+  if (epoch_ != epoch_of_frame) return shared_map.Read(copy);
+  return shared_map.TryRead(kMaxMapWait, copy).value_or(true);
+}
+
+bool LocalMap::CopyFrom(const Map& map, const TrackedFrame& frame) {
+  const std::map<KeyframeId, int> votes = CountVotes(map, frame);
+  if (votes.empty()) return false;
+  reference_ = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+                 return a.second < b.second;
+               })->first;
+  T_world_reference_ = map.keyframe(reference_).T_world_camera;
+  epoch_ = map.epoch();
+  std::vector<KeyframeId> keyframes = WithNeighbours(map, votes);
+  if (version_ == map.version() && keyframes == keyframes_) return true;
+  landmarks_ = map.CopyLandmarksSeenBy(keyframes);
+  keyframes_ = std::move(keyframes);
+  version_ = map.version();
+  return true;
 }
 
 }  // namespace semslam

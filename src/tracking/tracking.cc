@@ -12,6 +12,7 @@
 #include "semslam/map/similar_places.h"
 
 #include "tracking/frame_matching.h"
+#include "tracking/map_wait.h"
 #include "tracking/new_points.h"
 
 namespace semslam {
@@ -117,16 +118,29 @@ Tracking::Result Tracking::WithSight(Result result, std::shared_ptr<const Frame>
 Tracking::Result Tracking::TrackInMap(std::shared_ptr<const Frame> frame,
                                       const MapperLoad& mapper) {
   const Stopwatch stopwatch;
-  BringLastFrameUpToDate();
+  const auto bring_up_to_date = [&](const Map& map) { BringLastFrameUpToDate(map); };
+  if (state_ == TrackingState::kTracking) {
+    map_.TryRead(kMaxMapWait, bring_up_to_date);  // Else the frame stays as it was left.
+  } else {
+    map_.Read(bring_up_to_date);
+  }
   first_pose_seconds_ += stopwatch.Seconds();
   std::optional<Located> located = Locate(frame);
-  if (map_.Read([&](const Map& map) { return map.epoch() != epoch_; })) {
+  if (MapHasMoved(located.has_value())) {
     // A correction moved the map under the search: once more, where everything is now.
-    BringLastFrameUpToDate();
+    map_.Read(bring_up_to_date);
     located = Locate(frame);
   }
   if (!located) return Fail(std::move(frame));
   return Succeed(*std::move(located), mapper);
+}
+
+// Since the last frame was brought up to date. A frame that was found need not wait to know: its
+// local map tells whether it is of two epochs, and if it is not, Succeed and the next frame follow.
+bool Tracking::MapHasMoved(bool is_located) const {
+  const auto has_moved = [&](const Map& map) { return map.epoch() != epoch_; };
+  if (!is_located) return map_.Read(has_moved);
+  return map_.TryRead(kMaxMapWait, has_moved).value_or(local_map_.epoch() != epoch_);
 }
 
 // The frame's pose in the local map, if enough agrees with it.
@@ -219,22 +233,20 @@ Tracking::Result Tracking::StartPiece(std::shared_ptr<const Frame> frame,
 
 // The map may have moved since the last frame was tracked: its pose follows its reference keyframe,
 // and its landmarks may have moved, merged or vanished.
-void Tracking::BringLastFrameUpToDate() {
-  map_.Read([&](const Map& map) {
-    epoch_ = map.epoch();
-    if (const std::optional<Rigid3> T_world_reference = map.ResolvePose(last_reference_)) {
-      last_.T_world_camera = *T_world_reference * T_reference_last_;
+void Tracking::BringLastFrameUpToDate(const Map& map) {
+  epoch_ = map.epoch();
+  if (const std::optional<Rigid3> T_world_reference = map.ResolvePose(last_reference_)) {
+    last_.T_world_camera = *T_world_reference * T_reference_last_;
+  }
+  for (std::optional<TrackedPoint>& point : last_.points) {
+    if (!point || !point->landmark) continue;
+    point->landmark = map.ResolveLandmark(*point->landmark);
+    if (point->landmark) {
+      point->p_world = map.landmark(*point->landmark).appearance.p_world;
+    } else {
+      point.reset();
     }
-    for (std::optional<TrackedPoint>& point : last_.points) {
-      if (!point || !point->landmark) continue;
-      point->landmark = map.ResolveLandmark(*point->landmark);
-      if (point->landmark) {
-        point->p_world = map.landmark(*point->landmark).appearance.p_world;
-      } else {
-        point.reset();
-      }
-    }
-  });
+  }
 }
 
 std::optional<TrackedFrame> Tracking::PredictAndMatch(const std::shared_ptr<const Frame>& frame) {
@@ -314,7 +326,7 @@ std::optional<TrackedFrame> Tracking::Relocalize(const std::shared_ptr<const Fra
 }
 
 int Tracking::TrackLocalMap(TrackedFrame* current) {
-  if (!local_map_.Update(map_, *current)) return 0;
+  if (!local_map_.Update(map_, *current, epoch_)) return 0;
   for (const std::optional<TrackedPoint>& point : current->points) {
     if (point) ++sightings_[*point->landmark].num_visible;
   }

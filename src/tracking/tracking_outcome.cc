@@ -8,6 +8,7 @@
 
 #include "semslam/tracking/tracking.h"
 
+#include "tracking/map_wait.h"
 #include "tracking/new_points.h"
 
 namespace semslam {
@@ -46,18 +47,14 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
   Result result;
   last_reference_ = local_map_.reference_keyframe();
   if (localization_only_) sightings_.clear();
-  if (!localization_only_ && keyframe_policy_.WantsKeyframe(
-                                 Assess(current, located.num_inliers, last_reference_, mapper))) {
-    last_reference_ = InsertKeyframe(&current);
+  result.new_keyframe = InsertKeyframeIfWanted(&located, mapper);
+  if (result.new_keyframe) {
+    last_reference_ = *result.new_keyframe;
     T_reference_last_ = Rigid3();
-    result.new_keyframe = last_reference_;
     num_frames_since_keyframe_ = 0;
   } else {
-    map_.Read([&](const Map& map) {
-      FollowCorrection(map, &current);
-      const Rigid3 T_world_reference = map.ResolvePose(last_reference_).value_or(Rigid3());
-      T_reference_last_ = T_world_reference.Inverse() * current.T_world_camera;
-    });
+    const Rigid3 T_world_reference = PoseOfReference(&current);
+    T_reference_last_ = T_world_reference.Inverse() * current.T_world_camera;
   }
   last_ = std::move(current);
 
@@ -70,6 +67,16 @@ Tracking::Result Tracking::Succeed(Located located, const MapperLoad& mapper) {
   return result;
 }
 
+// Of last_reference_. If the map was corrected since the frame was found in it, the frame moves
+// with it; if the map cannot be had, both are left as they were when the local map was copied.
+Rigid3 Tracking::PoseOfReference(TrackedFrame* current) const {
+  const auto now = map_.TryRead(kMaxMapWait, [&](const Map& map) {
+    FollowCorrection(map, current);
+    return map.ResolvePose(last_reference_).value_or(Rigid3());
+  });
+  return now.value_or(local_map_.T_world_reference());
+}
+
 // If the map was corrected since the frame was found in it, the frame keeps its place beside its
 // reference keyframe.
 void Tracking::FollowCorrection(const Map& map, TrackedFrame* current) const {
@@ -80,13 +87,22 @@ void Tracking::FollowCorrection(const Map& map, TrackedFrame* current) const {
       *T_world_reference * local_map_.T_world_reference().Inverse() * current->T_world_camera;
 }
 
-KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
-                                           int num_inliers,
-                                           KeyframeId reference,
-                                           const MapperLoad& mapper) const {
+// Nothing if it is not wanted, or not now, because the map cannot be had: then with the next frame.
+std::optional<KeyframeId> Tracking::InsertKeyframeIfWanted(Located* located,
+                                                           const MapperLoad& mapper) {
+  if (localization_only_) return std::nullopt;
+  const std::optional<KeyframePolicy::Situation> situation = Assess(*located, mapper);
+  if (!situation || !keyframe_policy_.WantsKeyframe(*situation)) return std::nullopt;
+  return map_.TryWrite(kMaxMapWait, [&](Map& map) { return InsertKeyframe(map, &located->frame); });
+}
+
+// Nothing if the map cannot be had.
+std::optional<KeyframePolicy::Situation> Tracking::Assess(const Located& located,
+                                                          const MapperLoad& mapper) const {
+  const TrackedFrame& current = located.frame;
   KeyframePolicy::Situation now;
   now.num_frames_since_keyframe = num_frames_since_keyframe_;
-  now.num_inliers = num_inliers;
+  now.num_inliers = located.num_inliers;
   now.mapper = mapper;
   double sum_of_depths = 0;
   for (std::size_t i = 0; i < current.points.size(); ++i) {
@@ -97,44 +113,42 @@ KeyframePolicy::Situation Tracking::Assess(const TrackedFrame& current,
   }
   const int num_close = now.num_close_tracked + now.num_close_untracked;
   const double distance = num_close > 0 ? sum_of_depths / num_close : options_.close_depth_m;
-  map_.Read([&](const Map& map) {
-    if (const std::optional<KeyframeId> piece = map.PieceOf(reference)) {
+  const bool is_known = map_.TryRead(kMaxMapWait, [&](const Map& map) {
+    if (const std::optional<KeyframeId> piece = map.PieceOf(last_reference_)) {
       now.num_keyframes = static_cast<int>(map.pieces().at(*piece));
     }
     const int min_measurements = now.num_keyframes <= 2 ? 2 : 3;
-    const Keyframe* const keyframe = map.FindKeyframe(reference);
+    const Keyframe* const keyframe = map.FindKeyframe(last_reference_);
     if (keyframe == nullptr) return;
-    now.num_reference_landmarks = map.NumTrackedLandmarks(reference, min_measurements);
+    now.num_reference_landmarks = map.NumTrackedLandmarks(last_reference_, min_measurements);
     now.new_share = NewShare(camera_, keyframe->T_world_camera, current.T_world_camera, distance);
   });
-  return now;
+  return is_known ? std::optional(now) : std::nullopt;
 }
 
-KeyframeId Tracking::InsertKeyframe(TrackedFrame* current) {
+KeyframeId Tracking::InsertKeyframe(Map& map, TrackedFrame* current) {
   const NewPointOptions close_points{.close_depth_m = options_.close_depth_m,
                                      .min_count = options_.min_close_points};
-  return map_.Write([&](Map& map) {
-    ApplySightings(map);
-    FollowCorrection(map, current);
-    const KeyframeId id = map.AddKeyframe(current->frame, current->T_world_camera);
-    for (std::size_t feature = 0; feature < current->points.size(); ++feature) {
-      std::optional<TrackedPoint>& point = current->points[feature];
-      if (!point) continue;
-      point->landmark = map.ResolveLandmark(*point->landmark);
-      // Two features may show landmarks that were merged meanwhile.
-      if (!point->landmark || map.Sees(id, *point->landmark)) {
-        point.reset();
-      } else {
-        map.AddObservation(*point->landmark, {id, static_cast<int>(feature)});
-      }
+  ApplySightings(map);
+  FollowCorrection(map, current);
+  const KeyframeId id = map.AddKeyframe(current->frame, current->T_world_camera);
+  for (std::size_t feature = 0; feature < current->points.size(); ++feature) {
+    std::optional<TrackedPoint>& point = current->points[feature];
+    if (!point) continue;
+    point->landmark = map.ResolveLandmark(*point->landmark);
+    // Two features may show landmarks that were merged meanwhile.
+    if (!point->landmark || map.Sees(id, *point->landmark)) {
+      point.reset();
+    } else {
+      map.AddObservation(*point->landmark, {id, static_cast<int>(feature)});
     }
-    for (const int feature : FeaturesForNewPoints(*current, close_points)) {
-      const Eigen::Vector3d p_world = BackProject(camera_, *current, feature);
-      current->points[feature] = TrackedPoint{map.AddLandmark(p_world, {id, feature}), p_world};
-    }
-    map.ChooseParent(id, map.NearestKeptAncestor(last_reference_));
-    return id;
-  });
+  }
+  for (const int feature : FeaturesForNewPoints(*current, close_points)) {
+    const Eigen::Vector3d p_world = BackProject(camera_, *current, feature);
+    current->points[feature] = TrackedPoint{map.AddLandmark(p_world, {id, feature}), p_world};
+  }
+  map.ChooseParent(id, map.NearestKeptAncestor(last_reference_));
+  return id;
 }
 
 void Tracking::ApplySightings(Map& map) {

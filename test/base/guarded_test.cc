@@ -14,6 +14,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/held_lock.h"
+
 namespace semslam {
 namespace {
 
@@ -87,6 +89,31 @@ TEST(Guarded, HasGivenItsLockBackWhenItTellsTheObserver) {
   });
   value.Write([](int&) {});
   EXPECT_TRUE(is_free);
+}
+
+TEST(Guarded, TriesAsLongAsItIsToldTo) {
+  Guarded<int> value(7);
+  constexpr std::chrono::microseconds kShort(1000);
+  testing::HeldLock<int> holder(value);
+  EXPECT_FALSE(value.TryRead(kShort, [](int v) { return v; }));
+  EXPECT_FALSE(value.TryWrite(kShort, [](int& v) { v = 8; }));
+  holder.Release();
+  EXPECT_EQ(value.TryRead(kShort, [](int v) { return v; }), 7);
+  EXPECT_TRUE(value.TryWrite(kShort, [](int& v) { v = 8; }));
+  EXPECT_EQ(value.Read([](int v) { return v; }), 8);
+}
+
+TEST(Guarded, WaitsForAShortHold) {
+  Guarded<int> value(7);
+  std::latch is_held(1);
+  const std::jthread holder([&] {
+    value.Write([&](int& v) {
+      is_held.count_down();
+      v = 8;
+    });
+  });
+  is_held.wait();
+  EXPECT_EQ(value.TryRead(std::chrono::minutes(1), [](int v) { return v; }), 8);
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 
 #include "semslam/tracking/local_map.h"
 
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "map/random_frames.h"
+#include "support/held_lock.h"
 
 namespace semslam {
 namespace {
@@ -75,7 +78,7 @@ class LocalMapTest : public ::testing::Test {
 };
 
 TEST_F(LocalMapTest, TakesTheLandmarksOfTheKeyframesInViewAndTheirNeighbours) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4]), 0));
   EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{4});
   EXPECT_THAT(Ids(), ElementsAreArray(SeenBy({3, 4}))) << "4 and its neighbour and parent 3";
 }
@@ -83,13 +86,13 @@ TEST_F(LocalMapTest, TakesTheLandmarksOfTheKeyframesInViewAndTheirNeighbours) {
 TEST_F(LocalMapTest, TheReferenceIsTheKeyframeThatSharesMost) {
   std::vector<LandmarkId> landmarks = own_[1];
   landmarks.push_back(own_[3].front());
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(landmarks)));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(landmarks), 0));
   EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{1});
   EXPECT_THAT(Ids(), ElementsAreArray(SeenBy({0, 1, 2, 3})));
 }
 
 TEST_F(LocalMapTest, CopiesTheLandmarksAsTheyAre) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
   map_.Read([&](const Map& map) {
     for (const LandmarkCopy& entry : local_map_.landmarks()) {
       EXPECT_EQ(entry.appearance.p_world, map.landmark(entry.id).appearance.p_world);
@@ -99,31 +102,56 @@ TEST_F(LocalMapTest, CopiesTheLandmarksAsTheyAre) {
 }
 
 TEST_F(LocalMapTest, SkipsTheCopyIfNothingHasChanged) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
   const LandmarkCopy* const copy = local_map_.landmarks().data();
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf({own_[0][1], own_[0][2]})));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf({own_[0][1], own_[0][2]}), 0));
   EXPECT_EQ(local_map_.landmarks().data(), copy);
 }
 
 TEST_F(LocalMapTest, FollowsAnEditOfTheMap) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
   map_.Write([&](Map& map) { map.SetPosition(own_[0][2], {7, 8, 9}); });
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
   EXPECT_EQ(local_map_.landmarks()[2].id, own_[0][2]);
   EXPECT_EQ(local_map_.landmarks()[2].appearance.p_world, Eigen::Vector3d(7, 8, 9));
 }
 
+TEST_F(LocalMapTest, ServesOnceMoreWhileOthersHoldTheMap) {
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
+  const std::vector<LandmarkId> before = Ids();
+  testing::HeldLock<Map> holder(map_);
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4]), 0));
+  EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{0});
+  EXPECT_EQ(Ids(), before);
+  holder.Release();
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4]), 0));
+  EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{4});
+}
+
+TEST_F(LocalMapTest, WaitsForTheMapIfTheCopyIsOfAnotherEpoch) {
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
+  EXPECT_EQ(local_map_.epoch(), 0u);
+  testing::HeldLock<Map> holder(map_, [](Map& map) { map.Correct({}); });
+  const std::jthread releaser([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    holder.Release();
+  });
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4]), 1));
+  EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{4});
+  EXPECT_EQ(local_map_.epoch(), 1u);
+}
+
 TEST_F(LocalMapTest, FollowsTheFrameToOtherKeyframes) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[4]), 0));
   EXPECT_THAT(Ids(), ElementsAreArray(SeenBy({3, 4})));
 }
 
 TEST_F(LocalMapTest, StaysAsItWasWhenTheFrameSharesNothing) {
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0])));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(own_[0]), 0));
   const std::vector<LandmarkId> before = Ids();
-  EXPECT_FALSE(local_map_.Update(map_, FrameOf({})));
-  EXPECT_FALSE(local_map_.Update(map_, FrameOf({LandmarkId{999}}))) << "erased or unknown";
+  EXPECT_FALSE(local_map_.Update(map_, FrameOf({}), 0));
+  EXPECT_FALSE(local_map_.Update(map_, FrameOf({LandmarkId{999}}), 0)) << "erased or unknown";
   EXPECT_EQ(Ids(), before);
   EXPECT_EQ(local_map_.reference_keyframe(), KeyframeId{0});
 }
@@ -132,7 +160,7 @@ TEST_F(LocalMapTest, TakesEightyKeyframesOfManyAtMostBesidesThoseInView) {
   for (int i = 5; i < 200; ++i) AddKeyframe();
   std::vector<LandmarkId> landmarks;
   for (int i = 0; i < 75; ++i) landmarks.push_back(own_[2 * i].front());
-  ASSERT_TRUE(local_map_.Update(map_, FrameOf(landmarks)));
+  ASSERT_TRUE(local_map_.Update(map_, FrameOf(landmarks), 0));
   // 75 in view and about five neighbours: each keyframe has ten landmarks that the one before has
   // not, and the first ten more.
   EXPECT_GE(local_map_.landmarks().size(), 10u * 75);

@@ -11,6 +11,7 @@
 
 #include "semslam/mapping/local_mapping.h"
 
+#include "support/held_lock.h"
 #include "support/matchers.h"
 #include "support/synthetic_frames.h"
 
@@ -266,6 +267,44 @@ TEST_F(TrackingTest, FollowsTheMapWhenItIsMoved) {
   ASSERT_EQ(result.state, TrackingState::kTracking);
   EXPECT_THAT(result.T_world_camera,
               Rigid3Near(T_new_old * SyntheticWorld::PathAt(20 / 30.0), 5e-4, 1e-3));
+}
+
+TEST_F(TrackingTest, FollowsTheCameraWhileAnotherThreadHoldsTheMap) {
+  int i = 0;
+  for (; i < 20; ++i) Track(i);
+  const std::size_t num_keyframes = NumKeyframes();
+  testing::HeldLock<Map> holder(map_);
+  for (; i < 35; ++i) {
+    const Tracking::Result result = tracking_->Track(World().LookAlongPath(i).frame, {});
+    ASSERT_EQ(result.state, TrackingState::kTracking) << "frame " << i;
+    EXPECT_FALSE(result.new_keyframe);
+    ASSERT_THAT(result.T_world_camera, Rigid3Near(SyntheticWorld::PathAt(i / 30.0), 5e-4, 1e-3));
+  }
+  holder.Release();
+  EXPECT_EQ(NumKeyframes(), num_keyframes);
+  const Tracking::Result result = Track(i);
+  EXPECT_TRUE(result.new_keyframe) << "which was due";
+  EXPECT_THAT(result.T_world_camera, Rigid3Near(SyntheticWorld::PathAt(i / 30.0), 5e-4, 1e-3));
+}
+
+TEST_F(TrackingTest, HearsOfACorrectionOnceItCanHaveTheMap) {
+  int i = 0;
+  for (; i < 20; ++i) Track(i);
+  const Rigid3 T_new_old{ExpSO3({0.1, -0.2, 0.3}), {1, 2, 3}};
+  testing::HeldLock<Map> holder(map_, [&](Map& map) {
+    MapCorrection correction;
+    for (const KeyframeId id : map.KeyframeIds()) correction.T_new_old[id] = T_new_old;
+    map.Correct(correction);
+  });
+  for (; i < 25; ++i) {
+    ASSERT_THAT(tracking_->Track(World().LookAlongPath(i).frame, {}).T_world_camera,
+                Rigid3Near(SyntheticWorld::PathAt(i / 30.0), 5e-4, 1e-3));
+  }
+  holder.Release();
+  const Tracking::Result result = Track(i);
+  ASSERT_EQ(result.state, TrackingState::kTracking);
+  EXPECT_THAT(result.T_world_camera,
+              Rigid3Near(T_new_old * SyntheticWorld::PathAt(i / 30.0), 5e-4, 1e-3));
 }
 
 TEST_F(TrackingTest, ANewKeyframeIsInTheMapWithItsLandmarksAndParent) {

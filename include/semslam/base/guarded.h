@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <shared_mutex>
+#include <type_traits>
 #include <utility>
 
 #include "semslam/base/stopwatch.h"
@@ -43,7 +46,48 @@ class Guarded {
     return std::forward<F>(f)(value_);
   }
 
+  // For threads that have better things to do than to wait: if the lock is not to be had within
+  // `max_wait`, which keeps a core busy, the callback is not called. What it returns; nothing, or
+  // false if it returns void, if it was not called.
+  template <typename F>
+  auto TryRead(std::chrono::microseconds max_wait, F&& f) const {
+    Wait wait(observer_);
+    std::shared_lock lock(mutex_, std::defer_lock);
+    LockWithin(max_wait, lock);
+    wait.End();
+    return CallIf(lock.owns_lock(), std::forward<F>(f), value_);
+  }
+
+  template <typename F>
+  auto TryWrite(std::chrono::microseconds max_wait, F&& f) {
+    Wait wait(observer_);
+    std::unique_lock lock(mutex_, std::defer_lock);
+    LockWithin(max_wait, lock);
+    wait.End();
+    return CallIf(lock.owns_lock(), std::forward<F>(f), value_);
+  }
+
  private:
+  // Asks again and again, since whoever sleeps may have lost its core when the lock comes free, and
+  // get it back milliseconds later.
+  template <typename Lock>
+  static void LockWithin(std::chrono::microseconds max_wait, Lock& lock) {
+    const auto deadline = std::chrono::steady_clock::now() + max_wait;
+    while (!lock.try_lock() && std::chrono::steady_clock::now() < deadline) {
+    }
+  }
+
+  template <typename F, typename Value>
+  static auto CallIf(bool is_locked, F&& f, Value& value) {
+    if constexpr (std::is_void_v<std::invoke_result_t<F, Value&>>) {
+      if (is_locked) std::forward<F>(f)(value);
+      return is_locked;
+    } else {
+      using Result = std::optional<std::decay_t<std::invoke_result_t<F, Value&>>>;
+      return is_locked ? Result(std::forward<F>(f)(value)) : Result();
+    }
+  }
+
   // Made before the lock is asked for, so that it goes, and tells the observer, after the lock.
   class Wait {
    public:

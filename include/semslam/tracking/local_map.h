@@ -20,20 +20,27 @@ class LocalMap {
   // Takes the keyframes that share landmarks with the frame, their neighbours in covisibility and
   // in the spanning tree (80 at most), and copies the landmarks of all of them. The copy is skipped
   // if neither these keyframes nor the map has changed. False if the frame shares no landmark with
-  // any keyframe: everything stays as it was.
-  bool Update(const SharedMap& map, const TrackedFrame& frame);
+  // any keyframe: everything stays as it was. So it does if others hold the map for longer than
+  // tracking waits and the copy is of the epoch that the frame's landmarks are of: then the copy
+  // serves once more.
+  bool Update(const SharedMap& map, const TrackedFrame& frame, std::uint64_t epoch_of_frame);
 
   const std::vector<LandmarkCopy>& landmarks() const { return landmarks_; }  // Ascending ids.
   // The keyframe that shares most landmarks with the frame.
   KeyframeId reference_keyframe() const { return reference_; }
   const Rigid3& T_world_reference() const { return T_world_reference_; }  // When it was copied.
+  // Of the map when it was copied; nothing before the first time.
+  std::optional<std::uint64_t> epoch() const { return epoch_; }
 
  private:
+  bool CopyFrom(const Map& map, const TrackedFrame& frame);
+
   std::vector<KeyframeId> keyframes_;  // Ascending.
   std::vector<LandmarkCopy> landmarks_;
   KeyframeId reference_;
   Rigid3 T_world_reference_;
   std::uint64_t version_ = 0;
+  std::optional<std::uint64_t> epoch_;
 };
 
 }  // namespace semslam

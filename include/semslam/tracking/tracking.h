@@ -115,7 +115,8 @@ class Tracking {
   Result StartPiece(std::shared_ptr<const Frame> frame, const Rigid3& T_world_camera);
   Result WithSight(Result result, std::shared_ptr<const Frame> frame) const;
   Result TrackInMap(std::shared_ptr<const Frame> frame, const MapperLoad& mapper);
-  void BringLastFrameUpToDate();
+  void BringLastFrameUpToDate(const Map& map);
+  bool MapHasMoved(bool is_located) const;
   std::optional<Located> Locate(const std::shared_ptr<const Frame>& recorded);
   std::optional<TrackedFrame> TrackFromLast(const std::shared_ptr<const Frame>& recorded);
   std::optional<Vector6d> VelocityAt(const TrackedFrame& current) const;
@@ -129,11 +130,11 @@ class Tracking {
   Result Fail(std::shared_ptr<const Frame> frame);
   Result DropPiece(std::shared_ptr<const Frame> frame);
   bool IsWorthKeeping() const;
-  KeyframePolicy::Situation Assess(const TrackedFrame& current,
-                                   int num_inliers,
-                                   KeyframeId reference,
-                                   const MapperLoad& mapper) const;
-  KeyframeId InsertKeyframe(TrackedFrame* current);
+  std::optional<KeyframeId> InsertKeyframeIfWanted(Located* located, const MapperLoad& mapper);
+  std::optional<KeyframePolicy::Situation> Assess(const Located& located,
+                                                  const MapperLoad& mapper) const;
+  KeyframeId InsertKeyframe(Map& map, TrackedFrame* current);
+  Rigid3 PoseOfReference(TrackedFrame* current) const;
   void FollowCorrection(const Map& map, TrackedFrame* current) const;
   void ApplySightings(Map& map);
 
