@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <opencv2/core/mat.hpp>
@@ -17,11 +18,24 @@ class IntensityCentroid {
 
   IntensityCentroid();
 
-  // Degrees in [0, 360) as cv::fastAtan2 gives them; the disc must lie inside the image.
+  // Degrees in [0, 360) as cv::fastAtan2 gives them; the disc must lie inside the image, and one
+  // more pixel to its right.
   float AngleDegrees(const cv::Mat& image, int x, int y) const;
 
  private:
-  std::array<int, kRadius + 1> half_widths_{};  // Of the disc's row at distance v from the centre.
+  // Bytes of a row of the disc: for vector instructions one more than its diameter.
+  static constexpr int kRow = 2 * kRadius + 2;
+  using Row = std::array<std::uint8_t, kRow>;
+
+  struct Moments {
+    int x = 0;
+    int y = 0;
+  };
+
+  Moments MomentsAt(const std::uint8_t* center, std::ptrdiff_t step) const;
+
+  // Of the disc's row at distance v from the centre: 255 inside of it, else 0.
+  std::array<Row, kRadius + 1> masks_{};
 };
 
 }  // namespace semslam
