@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include <opencv2/core.hpp>
 
@@ -15,18 +14,13 @@
 namespace semslam {
 namespace {
 
+constexpr int kWordBits = 64;
+
 // To the nearest integer, ties to even, as cvRound does: adding 1.5 * 2^23 leaves it in the low
 // bits.
-std::int32_t RoundToNearest(float value) {
+SEMSLAM_SIMD_INLINE std::int32_t RoundToNearest(float value) {
   constexpr float kShift = 12582912.0F;
   return std::bit_cast<std::int32_t>(value + kShift) - std::bit_cast<std::int32_t>(kShift);
-}
-
-// Eight bytes 0 or 1 to the eight bits of a byte, the first one lowest.
-std::uint64_t PackBits(const std::uint8_t* bits) {
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, bits, 8);
-  return (bytes * 0x0102040810204080) >> 56;
 }
 
 }  // namespace
@@ -51,20 +45,24 @@ SEMSLAM_SIMD_CLONES Descriptor SteeredBrief::Describe(const cv::Mat& blurred,
   const int step = static_cast<int>(blurred.step);
   const std::uint8_t* center = blurred.ptr<std::uint8_t>(y) + x;
 
-  // Three plain passes, so that the compiler can do the first and the last with vectors.
+  // Two plain passes, so that the compiler can do the first with vectors.
   std::array<std::int32_t, kNumPoints> offsets;
   for (int i = 0; i < kNumPoints; ++i) {
     const int u = RoundToNearest(pattern_x_[i] * cosine - pattern_y_[i] * sine);
     const int v = RoundToNearest(pattern_x_[i] * sine + pattern_y_[i] * cosine);
     offsets[i] = v * step + u;
   }
-  std::array<std::uint8_t, kNumPoints> values;
-  for (int i = 0; i < kNumPoints; ++i) values[i] = center[offsets[i]];
-  std::array<std::uint8_t, kDescriptorBits> bits;
-  for (int i = 0; i < kDescriptorBits; ++i) bits[i] = values[i] < values[kDescriptorBits + i];
   Descriptor descriptor;
-  for (int byte = 0; byte < kDescriptorBits / 8; ++byte) {
-    descriptor.bits[byte / 8] |= PackBits(&bits[8 * byte]) << (8 * (byte % 8));
+  for (int word = 0; word < kDescriptorBits / kWordBits; ++word) {
+    const std::int32_t* first = offsets.data() + word * kWordBits;
+    const std::int32_t* second = first + kDescriptorBits;
+    std::uint64_t bits = 0;
+    // A comparison leaves its result in the carry, which the sum takes in.
+#pragma GCC unroll 16
+    for (int i = kWordBits - 1; i >= 0; --i) {
+      bits += bits + (center[first[i]] < center[second[i]] ? 1 : 0);
+    }
+    descriptor.bits[word] = bits;
   }
   return descriptor;
 }
