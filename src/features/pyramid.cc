@@ -23,17 +23,37 @@ cv::Size LevelSize(const cv::Size& full_size, float scale) {
 
 namespace {
 
-// Two rows of values kTapOne times too large to one of grey values.
-SEMSLAM_SIMD_CLONES void MixRows(const std::int16_t* __restrict upper,
-                                 const std::int16_t* __restrict lower,
+// Rows are worked on up to a multiple of this, so that vector instructions do all of it, and images
+// have room for that.
+constexpr int kBlock = 32;
+int PaddedWidth(int width) { return (width + kBlock - 1) / kBlock * kBlock; }
+cv::Mat MakePaddedImage(const cv::Size& size) {
+  return cv::Mat(size.height, PaddedWidth(size.width), CV_8UC1).colRange(0, size.width);
+}
+
+// Two rows of values kRowOne times too large to one of grey values. The sums have 23 bits: the
+// upper 15 of the two products, and what the lower 8 carry, are all that matters for the rounded
+// result, and fit 16 bits.
+SEMSLAM_SIMD_CLONES void MixRows(const std::uint16_t* __restrict upper,
+                                 const std::uint16_t* __restrict lower,
                                  const Tap& tap,
                                  int width,
                                  std::uint8_t* __restrict out) {
-  const std::int16_t weight = tap.weight;
-  const std::int16_t weight_next = tap.weight_next;
+  static_assert(kRowOne == 256 && kTapOne == 128);
+  const auto upper_weight = static_cast<std::uint16_t>(256 * tap.weight);
+  const auto lower_weight = static_cast<std::uint16_t>(256 * tap.weight_next);
+  const auto high = [](std::uint16_t value, std::uint16_t weight) {
+    return static_cast<std::uint16_t>(std::uint32_t{value} * weight >> 16);
+  };
+  const auto low = [](std::uint16_t value, std::uint16_t weight) {
+    return static_cast<std::uint16_t>(static_cast<std::uint16_t>(value * weight) >> 8);
+  };
   for (int x = 0; x < width; ++x) {
-    const int sum = upper[x] * weight + lower[x] * weight_next;
-    out[x] = static_cast<std::uint8_t>((sum + kTapOne * kTapOne / 2) >> (2 * kTapBits));
+    const auto carry = static_cast<std::uint16_t>(
+        (low(upper[x], upper_weight) + low(lower[x], lower_weight)) >> 8);
+    const auto sum = static_cast<std::uint16_t>(high(upper[x], upper_weight) +
+                                                high(lower[x], lower_weight) + carry);
+    out[x] = static_cast<std::uint8_t>((sum + kTapOne / 2) >> kTapBits);
   }
 }
 
@@ -42,11 +62,12 @@ SEMSLAM_SIMD_CLONES void MixRows(const std::int16_t* __restrict upper,
 cv::Mat Shrink(const cv::Mat& source, const cv::Size& size, double ratio) {
   SEMSLAM_CHECK(source.type() == CV_8UC1 && source.cols >= 2 && source.rows >= 2)
       << source.cols << "x" << source.rows << ", type " << source.type();
-  const RowShrinker shrinker(size.width, source.cols, ratio);
+  const int width = PaddedWidth(size.width);
+  const RowShrinker shrinker(width, source.cols, ratio);
   const std::vector<Tap> rows = MakeTaps(size.height, source.rows, ratio);
-  cv::Mat result(size, CV_8UC1);
-  std::vector<std::int16_t> upper(size.width);
-  std::vector<std::int16_t> lower(size.width);
+  cv::Mat result = MakePaddedImage(size);
+  std::vector<std::uint16_t> upper(width);
+  std::vector<std::uint16_t> lower(width);
   int lower_row = -1;  // Of the source.
   for (int y = 0; y < size.height; ++y) {
     const Tap& tap = rows[y];
@@ -59,7 +80,7 @@ cv::Mat Shrink(const cv::Mat& source, const cv::Size& size, double ratio) {
       lower_row = tap.index + 1;
       shrinker.Shrink(source.ptr<std::uint8_t>(lower_row), lower.data());
     }
-    MixRows(upper.data(), lower.data(), tap, size.width, result.ptr<std::uint8_t>(y));
+    MixRows(upper.data(), lower.data(), tap, width, result.ptr<std::uint8_t>(y));
   }
   return result;
 }
@@ -84,9 +105,11 @@ std::array<float, kBlurRadius + 1> BlurWeights() {
 // ... 2 1 | 0 1 2 ... size-1 | size-2 ...
 int Mirror(int i, int size) { return i < 0 ? -i : i >= size ? 2 * size - 2 - i : i; }
 
-// One row blurred along x; `padded` is scratch of width + 2 radius.
+// One row blurred along x, and what is after it up to the padded width; `padded` is scratch of that
+// width + 2 radius.
 SEMSLAM_SIMD_CLONES void BlurRow(const std::uint8_t* row,
                                  int width,
+                                 int padded_width,
                                  const std::array<float, kBlurRadius + 1>& k,
                                  std::vector<float>& padded,
                                  float* __restrict out) {
@@ -96,7 +119,7 @@ SEMSLAM_SIMD_CLONES void BlurRow(const std::uint8_t* row,
     middle[-i] = middle[i];
     middle[width - 1 + i] = middle[width - 1 - i];
   }
-  for (int x = 0; x < width; ++x) {
+  for (int x = 0; x < padded_width; ++x) {
     const float* p = middle + x;
     out[x] = k[0] * p[0] + k[1] * (p[-1] + p[1]) + k[2] * (p[-2] + p[2]) + k[3] * (p[-3] + p[3]);
   }
@@ -122,16 +145,17 @@ cv::Mat BlurForBrief(const cv::Mat& image) {
       << image.cols << "x" << image.rows << ", type " << image.type();
   constexpr int kNumRows = 2 * kBlurRadius + 1;
   const std::array<float, kBlurRadius + 1> weights = BlurWeights();
-  const int width = image.cols;
+  const int width = PaddedWidth(image.cols);
   std::vector<float> padded(width + 2 * kBlurRadius);
   std::vector<float> ring(static_cast<std::size_t>(kNumRows) * width);  // Row y at y % 7.
   const auto ring_row = [&](int y) { return ring.data() + (y % kNumRows) * width; };
 
-  cv::Mat result(image.size(), CV_8UC1);
+  cv::Mat result = MakePaddedImage(image.size());
   int num_blurred = 0;
   for (int y = 0; y < image.rows; ++y) {
     for (; num_blurred < std::min(y + kBlurRadius + 1, image.rows); ++num_blurred) {
-      BlurRow(image.ptr<std::uint8_t>(num_blurred), width, weights, padded, ring_row(num_blurred));
+      BlurRow(image.ptr<std::uint8_t>(num_blurred), image.cols, width, weights, padded,
+              ring_row(num_blurred));
     }
     std::array<const float*, kNumRows> rows{};
     for (int i = 0; i < kNumRows; ++i) {

@@ -21,28 +21,32 @@ inline constexpr int kTapOne = 1 << kTapBits;
 // For every i < size the position i * ratio of `source_size` (>= 2) values.
 std::vector<Tap> MakeTaps(int size, int source_size, double ratio);
 
+// Values between pixels are pixels times this.
+inline constexpr int kRowOne = 2 * kTapOne;
+
 // Makes rows of an image shorter by linear interpolation: value x of the result is the source's at
-// x * ratio, times kTapOne.
+// x * ratio, times kRowOne.
 class RowShrinker {
  public:
-  // 1 <= ratio <= 2.
+  // 1 <= ratio <= 2. Past the end of the source its last pixel is repeated.
   RowShrinker(int width, int source_width, double ratio);
 
   // `row` has source_width pixels, `out` room for `width` values.
-  void Shrink(const std::uint8_t* row, std::int16_t* out) const;
+  void Shrink(const std::uint8_t* row, std::uint16_t* out) const;
 
  private:
-  // Eight values of the result, whose sources lie in sixteen neighbouring pixels.
-  struct Group {
-    std::int32_t first = 0;                     // Of the pixels.
-    std::array<std::uint8_t, 16> neighbours{};  // Two for each value, relative to `first`.
-    std::array<std::uint8_t, 16> weights{};     // Of these.
-  };
+  using Bytes = std::array<std::uint8_t, 16>;
 
-  void ShrinkGroups(const std::uint8_t* row, std::int16_t* out) const;
+  int num_groups() const { return static_cast<int>(first_pixels_.size()); }
+  int ShrinkPairsOfGroups(const std::uint8_t* row, std::uint16_t* out) const;
+  void ShrinkGroups(int begin, const std::uint8_t* row, std::uint16_t* out) const;
 
   std::vector<Tap> taps_;
-  std::vector<Group> groups_;  // Of the values up to the last that a group can serve; or none.
+  // Groups of eight values, whose sources lie in sixteen neighbouring pixels. None if the source is
+  // shorter or the processor cannot do them.
+  std::vector<std::int32_t> first_pixels_;
+  std::vector<Bytes> neighbours_;  // Two for each value, relative to the first pixel.
+  std::vector<Bytes> weights_;     // Of these.
 };
 
 }  // namespace semslam
