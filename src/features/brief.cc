@@ -8,8 +8,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "semslam/base/simd_clones.h"
+
 #include "features/orb_pattern.h"
-#include "features/simd_clones.h"
 
 namespace semslam {
 namespace {

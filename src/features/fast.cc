@@ -15,8 +15,7 @@
 #include <opencv2/core.hpp>
 
 #include "semslam/base/check.h"
-
-#include "features/simd_clones.h"
+#include "semslam/base/simd_clones.h"
 
 namespace semslam {
 namespace {

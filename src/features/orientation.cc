@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "features/simd_clones.h"
+#include "semslam/base/simd_clones.h"
 
 namespace semslam {
 

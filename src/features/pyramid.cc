@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "semslam/base/check.h"
+#include "semslam/base/simd_clones.h"
 
 #include "features/row_shrinker.h"
-#include "features/simd_clones.h"
 
 namespace semslam {
 cv::Size LevelSize(const cv::Size& full_size, float scale) {

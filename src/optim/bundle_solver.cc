@@ -115,7 +115,7 @@ void BundleSolver::LinearizePoint(const BundleState& state,
     factor.valid = true;
     ReprojectionTerm term = LinearizeReprojection(camera_, p_camera, slot.image);
     if (robust_ && term.chi2 > slot.limit) term.Scale(Huber(term.chi2, slot.limit).weight);
-    factor.gradient.noalias() += rotation * term.gradient;
+    factor.gradient.noalias() += rotation * term.gradient();
     if (s >= first_free) part->equations[slot.free_pose].Add(term);
     for (int c = 0; c < 3; ++c) {
       const Eigen::Vector3d column = InformationTimes(term, rotation.row(c));

@@ -11,58 +11,22 @@
 #include "semslam/base/check.h"
 
 #include "optim/damping.h"
-#include "optim/huber.h"
-#include "optim/pose_normal_equations.h"
+#include "optim/pose_terms.h"
 #include "optim/reprojection.h"
 
 namespace semslam {
 namespace {
 
 using internal::Matrix6d;
+using internal::PoseTerms;
 
 constexpr int kMinObservations = 3;  // Fewer do not determine a pose.
-
-struct Term {
-  PoseObservation observation;
-  double limit;  // Chi-squared.
-};
-
-struct Linearization {
-  double cost = 0;
-  internal::PoseNormalEquations equations;
-};
 
 bool IsUsable(const PoseObservation& observation) {
   const ImagePoint& image = observation.image;
   return observation.p_world.allFinite() && image.pixel.allFinite() &&
          std::isfinite(image.right_x) && std::isfinite(image.inverse_variance) &&
          image.inverse_variance > 0;
-}
-
-Linearization Linearize(const StereoCamera& camera,
-                        const Rigid3& T_world_camera,
-                        std::span<const Term> terms,
-                        bool robust) {
-  const Eigen::Matrix3d R_camera_world = T_world_camera.rotation.toRotationMatrix().transpose();
-  const Eigen::Vector3d t_camera_world = -(R_camera_world * T_world_camera.translation);
-  Linearization result;
-  for (const Term& term : terms) {
-    const Eigen::Vector3d p_camera = R_camera_world * term.observation.p_world + t_camera_world;
-    if (!internal::IsInFront(p_camera)) {
-      result.cost +=
-          robust ? internal::Huber(internal::kBehindChi2, term.limit).cost : internal::kBehindChi2;
-      continue;
-    }
-    auto linear = internal::LinearizeReprojection(camera, p_camera, term.observation.image);
-    if (robust && linear.chi2 > term.limit) {
-      const internal::RobustCost huber = internal::Huber(linear.chi2, term.limit);
-      linear.Scale(huber.weight);
-      linear.chi2 = huber.cost;
-    }
-    result.cost += linear.chi2;
-    result.equations.Add(linear);
-  }
-  return result;
 }
 
 struct RoundResult {
@@ -74,12 +38,12 @@ struct RoundResult {
 // Levenberg-Marquardt over the given terms.
 RoundResult Minimize(const StereoCamera& camera,
                      const Rigid3& T_world_camera_initial,
-                     std::span<const Term> terms,
+                     const PoseTerms& terms,
                      bool robust,
                      const PoseOptions& options) {
   RoundResult result{.T_world_camera = T_world_camera_initial};
   internal::Damping damping;
-  Linearization current = Linearize(camera, result.T_world_camera, terms, robust);
+  PoseTerms::Linearization current = terms.Linearize(camera, result.T_world_camera, robust);
   while (result.num_iterations < options.iterations_per_round && !damping.exhausted()) {
     ++result.num_iterations;
     const Vector6d gradient = current.equations.Gradient();
@@ -95,7 +59,7 @@ RoundResult Minimize(const StereoCamera& camera,
     }
 
     const Rigid3 T_trial = Retract(result.T_world_camera, step);
-    const Linearization trial = Linearize(camera, T_trial, terms, robust);
+    const PoseTerms::Linearization trial = terms.Linearize(camera, T_trial, robust);
     const double decrease = current.cost - trial.cost;
     if (!(decrease > 0)) {
       // A step that promised nothing and brought nothing: this is the minimum.
@@ -173,13 +137,13 @@ PoseSolution OptimizePose(const StereoCamera& camera,
   options.Validate();
   PoseSolution solution{.T_world_camera = T_world_camera_initial,
                         .is_inlier = InFront(T_world_camera_initial, observations)};
-  std::vector<Term> terms;
-  terms.reserve(observations.size());
+  PoseTerms terms;
+  terms.Reserve(observations.size());
   for (int round = 0; round < options.num_rounds; ++round) {
-    terms.clear();
+    terms.Clear();
     for (std::size_t i = 0; i < observations.size(); ++i) {
       if (!solution.is_inlier[i]) continue;
-      terms.push_back({observations[i], options.chi2.Of(observations[i].image)});
+      terms.Add(observations[i], options.chi2.Of(observations[i].image));
     }
     if (terms.size() < kMinObservations) {
       return Failure(T_world_camera_initial, observations.size());

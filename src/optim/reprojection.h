@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "semslam/base/simd_clones.h"
 #include "semslam/geometry/rigid3.h"
 #include "semslam/optim/camera_model.h"
 
@@ -84,25 +85,69 @@ inline Matrix36d PoseJacobian(const StereoCamera& camera,
   return ProjectionJacobian(camera, p_camera, has_right) * motion;
 }
 
-// M and g above for weight 1 / variance, and the squared error. M(0, 1) is always 0.
-struct ReprojectionTerm {
-  Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();
-  double m00 = 0;
-  double m02 = 0;
-  double m11 = 0;
-  double m12 = 0;
-  double m22 = 0;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double chi2 = 0;
+// M and g above, and the squared error, of a term; M(0, 1) is always 0. T is a number or several,
+// worked on side by side.
+template <typename T>
+struct TermSums {
+  T m00, m02, m11, m12, m22;
+  T gradient_x, gradient_y, gradient_z;
+  T chi2;
 
-  void Scale(double weight) {
+  SEMSLAM_SIMD_INLINE void Scale(const T& weight) {
     m00 *= weight;
     m02 *= weight;
     m11 *= weight;
     m12 *= weight;
     m22 *= weight;
-    gradient *= weight;
+    gradient_x *= weight;
+    gradient_y *= weight;
+    gradient_z *= weight;
   }
+};
+
+// What a camera saw of a point.
+template <typename T>
+struct Sight {
+  T u, v, right_x;
+  T weight;        // 1 / variance.
+  T right_weight;  // The same, or 0 without a measured right_x.
+};
+
+// Of a point (x, y, z) in front of the camera.
+template <typename T>
+SEMSLAM_SIMD_INLINE TermSums<T> LinearizeSight(
+    const StereoCamera& camera, const T& x, const T& y, const T& z, const Sight<T>& sight) {
+  const T inverse_z = 1.0 / z;
+  const T a = camera.fx * inverse_z;
+  const T b = camera.fy * inverse_z;
+  const T a_z = -a * x * inverse_z;
+  const T b_z = -b * y * inverse_z;
+  const T r_u = a * x + camera.cx - sight.u;
+  const T r_v = b * y + camera.cy - sight.v;
+  const T r_right = r_u + sight.u - camera.bf * inverse_z - sight.right_x;
+  const T right_z = a_z + camera.bf * inverse_z * inverse_z;
+  const T g_u = sight.weight * r_u;
+  const T g_v = sight.weight * r_v;
+  const T g_right = sight.right_weight * r_right;
+
+  TermSums<T> term;
+  term.m00 = a * a * (sight.weight + sight.right_weight);
+  term.m02 = a * (sight.weight * a_z + sight.right_weight * right_z);
+  term.m11 = b * b * sight.weight;
+  term.m12 = b * b_z * sight.weight;
+  term.m22 = sight.weight * (a_z * a_z + b_z * b_z) + sight.right_weight * right_z * right_z;
+  term.gradient_x = a * (g_u + g_right);
+  term.gradient_y = b * g_v;
+  term.gradient_z = a_z * g_u + b_z * g_v + right_z * g_right;
+  term.chi2 = g_u * r_u + g_v * r_v + g_right * r_right;
+  return term;
+}
+
+// The same of one point, with it.
+struct ReprojectionTerm : TermSums<double> {
+  Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d gradient() const { return {gradient_x, gradient_y, gradient_z}; }
   Eigen::Matrix3d Information() const {
     Eigen::Matrix3d m;
     m << m00, 0, m02, 0, m11, m12, m02, m12, m22;
@@ -115,30 +160,9 @@ inline ReprojectionTerm LinearizeReprojection(const StereoCamera& camera,
                                               const Eigen::Vector3d& p_camera,
                                               const ImagePoint& image) {
   const double weight = image.inverse_variance;
-  const double inverse_z = 1.0 / p_camera.z();
-  const double a = camera.fx * inverse_z;
-  const double b = camera.fy * inverse_z;
-  const double a_z = -a * p_camera.x() * inverse_z;
-  const double b_z = -b * p_camera.y() * inverse_z;
-  const double r_u = a * p_camera.x() + camera.cx - image.pixel.x();
-  const double r_v = b * p_camera.y() + camera.cy - image.pixel.y();
-  const double right_weight = image.has_right() ? weight : 0.0;
-  const double r_right = r_u + image.pixel.x() - camera.bf * inverse_z - image.right_x;
-  const double right_z = a_z + camera.bf * inverse_z * inverse_z;
-
-  ReprojectionTerm term;
-  term.p_camera = p_camera;
-  term.m00 = a * a * (weight + right_weight);
-  term.m02 = a * (weight * a_z + right_weight * right_z);
-  term.m11 = b * b * weight;
-  term.m12 = b * b_z * weight;
-  term.m22 = weight * (a_z * a_z + b_z * b_z) + right_weight * right_z * right_z;
-  const double g_u = weight * r_u;
-  const double g_v = weight * r_v;
-  const double g_right = right_weight * r_right;
-  term.gradient << a * (g_u + g_right), b * g_v, a_z * g_u + b_z * g_v + right_z * g_right;
-  term.chi2 = g_u * r_u + g_v * r_v + g_right * r_right;
-  return term;
+  const Sight<double> sight{image.pixel.x(), image.pixel.y(), image.right_x, weight,
+                            image.has_right() ? weight : 0.0};
+  return {LinearizeSight(camera, p_camera.x(), p_camera.y(), p_camera.z(), sight), p_camera};
 }
 
 }  // namespace semslam::internal

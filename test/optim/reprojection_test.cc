@@ -87,7 +87,7 @@ TEST_P(ReprojectionTest, TermsAreMadeOfResidualAndJacobian) {
 
     EXPECT_NEAR(term.chi2, weight * residual.squaredNorm(), 1e-9 * term.chi2);
     EXPECT_TRUE(term.Information().isApprox(weight * jacobian.transpose() * jacobian, 1e-12));
-    EXPECT_TRUE(term.gradient.isApprox(weight * jacobian.transpose() * residual, 1e-12));
+    EXPECT_TRUE(term.gradient().isApprox(weight * jacobian.transpose() * residual, 1e-12));
   }
 }
 
