@@ -20,6 +20,30 @@ Eigen::Vector2d DistortNormalised(const PinholeCamera::Parameters& c, const Eige
           p.y() * radial + c.p1 * (r2 + 2.0 * p.y() * p.y()) + 2.0 * c.p2 * xy};
 }
 
+// Its derivative; symmetric.
+struct SymmetricJacobian {
+  double xx, xy, yy;
+};
+SymmetricJacobian DistortionJacobian(const PinholeCamera::Parameters& c, const Eigen::Vector2d& p) {
+  const double r2 = p.squaredNorm();
+  const double radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
+  const double twice_slope = 2.0 * (c.k1 + r2 * (2.0 * c.k2 + r2 * 3.0 * c.k3));
+  const double x = p.x();
+  const double y = p.y();
+  return {radial + x * x * twice_slope + 2.0 * c.p1 * y + 6.0 * c.p2 * x,
+          x * y * twice_slope + 2.0 * c.p1 * x + 2.0 * c.p2 * y,
+          radial + y * y * twice_slope + 6.0 * c.p1 * y + 2.0 * c.p2 * x};
+}
+
+// Newton's step; or, where the distortion folds the image, as if there were none.
+Eigen::Vector2d StepAgainst(const Eigen::Vector2d& error, const SymmetricJacobian& j) {
+  constexpr double kMinDeterminant = 0.01;
+  const double determinant = j.xx * j.yy - j.xy * j.xy;
+  if (!(determinant > kMinDeterminant)) return error;
+  return Eigen::Vector2d(j.yy * error.x() - j.xy * error.y(), j.xx * error.y() - j.xy * error.x()) /
+         determinant;
+}
+
 }  // namespace
 
 PinholeCamera::PinholeCamera(const Parameters& parameters) : parameters_(parameters) {
@@ -47,14 +71,14 @@ Eigen::Vector2d PinholeCamera::Distort(const Eigen::Vector2d& ideal_pixel) const
 Eigen::Vector2d PinholeCamera::Undistort(const Eigen::Vector2d& raw_pixel) const {
   if (!has_distortion()) return raw_pixel;
   const Eigen::Vector2d target{(raw_pixel.x() - cx()) / fx(), (raw_pixel.y() - cy()) / fy()};
-  // Fixed-point iteration p <- p - (distort(p) - target); a contraction for the small distortion of
-  // RGB-D cameras.
-  Eigen::Vector2d p = target;
+  // Newton's method: after a step from an error so small, the next one is below rounding.
+  constexpr double kSmallError = 1e-8;
   constexpr int kMaxIterations = 50;
+  Eigen::Vector2d p = target;
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::Vector2d error = DistortNormalised(parameters_, p) - target;
-    p -= error;
-    if (error.cwiseAbs().maxCoeff() < 1e-13) break;
+    p -= StepAgainst(error, DistortionJacobian(parameters_, p));
+    if (error.cwiseAbs().maxCoeff() < kSmallError) break;
   }
   return {fx() * p.x() + cx(), fy() * p.y() + cy()};
 }
