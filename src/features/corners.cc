@@ -3,7 +3,10 @@
 #include "features/corners.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 namespace semslam {
 namespace {
@@ -69,19 +72,25 @@ struct Node {
   std::ptrdiff_t size() const { return last - first; }
 };
 
-// Cuts a node into its (up to four) quarters that hold corners.
-void Split(const Node& node, std::vector<Node>& children) {
+// Cuts a node into its (up to four) quarters that hold corners. Those are counted, then moved,
+// without a branch: which quarter comes next cannot be foreseen.
+void Split(const Node& node, std::vector<Corner>& scratch, std::vector<Node>& children) {
   const int x = (node.x0 + node.x1) / 2;
   const int y = (node.y0 + node.y1) / 2;
-  const auto is_above = [y](const Corner& c) { return c.y < y; };
-  const auto is_left = [x](const Corner& c) { return c.x < x; };
-  Corner* const middle = std::partition(node.first, node.last, is_above);
-  Corner* const upper = std::partition(node.first, middle, is_left);
-  Corner* const lower = std::partition(middle, node.last, is_left);
-  const Node quarters[] = {{node.x0, node.y0, x, y, node.first, upper},
-                           {x, node.y0, node.x1, y, upper, middle},
-                           {node.x0, y, x, node.y1, middle, lower},
-                           {x, y, node.x1, node.y1, lower, node.last}};
+  const auto quarter_of = [x, y](const Corner& c) {
+    return 2 * static_cast<int>(c.y >= y) + static_cast<int>(c.x >= x);
+  };
+  scratch.assign(node.first, node.last);
+  std::array<std::ptrdiff_t, 4> ends{};
+  for (const Corner& c : scratch) ++ends[quarter_of(c)];
+  for (int i = 1; i < 4; ++i) ends[i] += ends[i - 1];
+  std::array<Corner*, 4> next = {node.first, node.first + ends[0], node.first + ends[1],
+                                 node.first + ends[2]};
+  for (const Corner& c : scratch) *next[quarter_of(c)]++ = c;
+  const Node quarters[] = {{node.x0, node.y0, x, y, node.first, next[0]},
+                           {x, node.y0, node.x1, y, next[0], next[1]},
+                           {node.x0, y, x, node.y1, next[1], next[2]},
+                           {x, y, node.x1, node.y1, next[2], next[3]}};
   std::copy_if(std::begin(quarters), std::end(quarters), std::back_inserter(children),
                [](const Node& quarter) { return quarter.size() > 0; });
 }
@@ -117,6 +126,7 @@ std::vector<Corner> SpreadCorners(std::vector<Corner> corners,
   if (corners.size() <= static_cast<std::size_t>(num_wanted)) return corners;
   std::vector<Node> open = MakeRoots(corners, region);  // With several corners, still to be cut.
   std::vector<Node> leaves;
+  std::vector<Corner> scratch;
   // All nodes of a depth are cut before those of the next; at the last depth, where not all can be,
   // those with the most corners.
   while (!open.empty() && leaves.size() + open.size() < static_cast<std::size_t>(num_wanted)) {
@@ -130,7 +140,7 @@ std::vector<Corner> SpreadCorners(std::vector<Corner> corners,
       if (open[next].size() == 1) {
         leaves.push_back(open[next]);
       } else {
-        Split(open[next], children);
+        Split(open[next], scratch, children);
       }
     }
     children.insert(children.end(), open.begin() + static_cast<std::ptrdiff_t>(next), open.end());
