@@ -5,25 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <opencv2/imgproc.hpp>
-
 #include "semslam/base/check.h"
+
+#include "features/gray.h"
 
 namespace semslam {
 namespace {
-
-// In strips small enough for OpenCV not to spread them over threads: the others have work to do.
-cv::Mat ToGray(const cv::Mat& color) {
-  constexpr int kMaxPixels = 1 << 16;
-  cv::Mat gray(color.size(), CV_8UC1);
-  const int num_rows = std::max(1, kMaxPixels / color.cols);
-  for (int first = 0; first < color.rows; first += num_rows) {
-    const cv::Range rows(first, std::min(first + num_rows, color.rows));
-    cv::Mat strip = gray.rowRange(rows);
-    cv::cvtColor(color.rowRange(rows), strip, cv::COLOR_BGR2GRAY);
-  }
-  return gray;
-}
 
 // Depth of the nearest pixel; 0 where there is none or nonsense.
 float DepthAt(const cv::Mat& depth, const Eigen::Vector2f& pixel) {
