@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/pyramid.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -98,6 +99,34 @@ TEST(BlurForBrief, RoundsTheGaussianToTheNearest) {
       for (int x = 0; x < image.cols; ++x) {
         ASSERT_NEAR(blurred.at<std::uint8_t>(y, x), GaussianAt(image, x, y), kTie) << x << " " << y;
       }
+    }
+  }
+}
+
+// In single precision, summed as written: products and sums fused would round otherwise.
+float SumOfSeven(const std::array<float, 7>& p) {
+  double total = 0;
+  std::array<double, 4> weights{};
+  for (int i = 0; i < 4; ++i) {
+    weights[i] = std::exp(-i * i / 8.0);
+    total += (i == 0 ? 1 : 2) * weights[i];
+  }
+  const auto part = [&](int i, float sum) { return static_cast<float>(weights[i] / total) * sum; };
+  return part(0, p[3]) + part(1, p[2] + p[4]) + part(2, p[1] + p[5]) + part(3, p[0] + p[6]);
+}
+
+TEST(BlurForBrief, GivesTheSameBitsOnEveryProcessor) {
+  const cv::Mat image = MakeTexture(257, 64, 4);
+  const cv::Mat blurred = BlurForBrief(image);
+  for (int y = 3; y < image.rows - 3; ++y) {
+    for (int x = 3; x < image.cols - 3; ++x) {
+      std::array<float, 7> rows{};
+      for (int v = 0; v < 7; ++v) {
+        std::array<float, 7> pixels{};
+        for (int u = 0; u < 7; ++u) pixels[u] = image.at<std::uint8_t>(y + v - 3, x + u - 3);
+        rows[v] = SumOfSeven(pixels);
+      }
+      ASSERT_EQ(blurred.at<std::uint8_t>(y, x), std::nearbyint(SumOfSeven(rows))) << x << " " << y;
     }
   }
 }

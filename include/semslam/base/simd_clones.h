@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Put before a function with plain loops: the compiler makes two of it, one for processors with
-// AVX2, and the program picks the right one when it starts. Both give the same bits (AVX2 alone
-// does not fuse products and sums). The sanitizers cannot start such programs, so they get one.
+// Put before a function with plain loops: the compiler makes three of it, for processors with
+// AVX-512 (as x86-64-v4 has it), with AVX2 and with neither, and the program picks the right one
+// when it starts. All give the same bits, if the file is compiled with -ffp-contract=off: products
+// and sums must not be fused where the processor could. The sanitizers cannot start such programs,
+// so they get one.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SEMSLAM_SIMD_CLONES __attribute__((target_clones("avx2", "default")))
+#define SEMSLAM_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #else
 #define SEMSLAM_SIMD_CLONES
 #endif
