@@ -25,10 +25,17 @@ Eigen::Matrix3d PrincipalAxes(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) mean += point;
   mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();  // yz, zx, xy.
   for (const Eigen::Vector3d& point : points) {
-    covariance += (point - mean) * (point - mean).transpose();
+    const Eigen::Vector3d p = point - mean;
+    squares += p.cwiseProduct(p);
+    products += Eigen::Vector3d(p.y() * p.z(), p.z() * p.x(), p.x() * p.y());
   }
+  Eigen::Matrix3d covariance;
+  covariance << squares.x(), products.z(), products.y(),  //
+      products.z(), squares.y(), products.x(),            //
+      products.y(), products.x(), squares.z();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   axes.col(2) = axes.col(0).cross(axes.col(1));
