@@ -85,7 +85,7 @@ void LiveSegmenter::UpdateBlock(std::uint64_t key,
 std::vector<std::uint64_t> LiveSegmenter::SortedByBlock(const std::vector<std::uint64_t>& voxels,
                                                         KeyNumbers& blocks) const {
   const std::uint64_t inner = static_cast<std::uint64_t>(options_.block_size) - 1;
-  std::vector<KeyedIndex> order;
+  LargeVector<KeyedIndex> order;
   order.reserve(voxels.size());
   std::uint64_t last = 0;
   std::uint64_t number = KeyNumbers::kNone;

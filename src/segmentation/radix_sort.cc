@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "semslam/base/parallel.h"
 
@@ -22,12 +23,12 @@ std::uint64_t BitsOf(std::uint64_t item) { return item; }
 
 // One pass: orders the items by one digit of their bits, equal ones as they were.
 template <typename Item>
-void SortByDigit(const std::vector<Item>& items,
+void SortByDigit(const LargeVector<Item>& items,
                  int shift,
                  std::uint64_t mask,
                  int num_threads,
                  std::vector<Places>& places,
-                 std::vector<Item>& sorted) {
+                 LargeVector<Item>& sorted) {
   const auto for_chunks = [&](const auto& body) {
     ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t chunk = begin; chunk < end; ++chunk) {
@@ -53,11 +54,11 @@ void SortByDigit(const std::vector<Item>& items,
 }
 
 template <typename Item>
-void Sort(std::vector<Item>& items, int first_bit, int num_bits, int num_threads) {
+void Sort(LargeVector<Item>& items, int first_bit, int num_bits, int num_threads) {
   const int num_passes = (num_bits + kMaxDigitBits - 1) / kMaxDigitBits;
   if (num_passes == 0 || items.empty()) return;
   const int digit_bits = (num_bits + num_passes - 1) / num_passes;
-  std::vector<Item> sorted(items.size());
+  LargeVector<Item> sorted(items.size());
   std::vector<Places> places(kNumChunks);
   for (int pass = 0; pass < num_passes; ++pass) {
     const int num_left = std::min(digit_bits, num_bits - pass * digit_bits);
@@ -69,11 +70,11 @@ void Sort(std::vector<Item>& items, int first_bit, int num_bits, int num_threads
 
 }  // namespace
 
-void RadixSort(std::vector<KeyedIndex>& items, int num_bits, int num_threads) {
+void RadixSort(LargeVector<KeyedIndex>& items, int num_bits, int num_threads) {
   Sort(items, 0, num_bits, num_threads);
 }
 
-void RadixSort(std::vector<std::uint64_t>& items, int first_bit, int num_bits, int num_threads) {
+void RadixSort(LargeVector<std::uint64_t>& items, int first_bit, int num_bits, int num_threads) {
   Sort(items, first_bit, num_bits, num_threads);
 }
 

@@ -3,7 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "semslam/base/large_vector.h"
 
 namespace semslam {
 
@@ -13,9 +14,9 @@ struct KeyedIndex {
 };
 
 // Sorts by key; equal keys keep their order. `num_bits`: no key has a bit set from there on.
-void RadixSort(std::vector<KeyedIndex>& items, int num_bits, int num_threads);
+void RadixSort(LargeVector<KeyedIndex>& items, int num_bits, int num_threads);
 
 // The same for keys that are the `num_bits` of a number from `first_bit` on.
-void RadixSort(std::vector<std::uint64_t>& items, int first_bit, int num_bits, int num_threads);
+void RadixSort(LargeVector<std::uint64_t>& items, int first_bit, int num_bits, int num_threads);
 
 }  // namespace semslam

@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <memory>
+#include <numeric>
 #include <utility>
 
 #include <emmintrin.h>
@@ -15,6 +15,7 @@
 #include "semslam/base/parallel.h"
 
 #include "segmentation/radix_sort.h"
+#include "segmentation/voxel_neighbours.h"
 
 namespace semslam {
 namespace {
@@ -46,6 +47,25 @@ Bounds FindBounds(std::span<const Eigen::Vector3f> points, double max_coordinate
   return bounds;
 }
 
+Bounds FindBounds(std::span<const Eigen::Vector3f> points, double max_coordinate, int num_threads) {
+  const std::size_t num_chunks = points.size() / kGrain + 1;
+  std::vector<Bounds> of_chunks(num_chunks);
+  ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      const std::size_t first = points.size() * chunk / num_chunks;
+      const std::size_t last = points.size() * (chunk + 1) / num_chunks;
+      of_chunks[chunk] = FindBounds(points.subspan(first, last - first), max_coordinate);
+    }
+  });
+  Bounds bounds;
+  for (const Bounds& chunk : of_chunks) {
+    bounds.low = bounds.low.cwiseMin(chunk.low);
+    bounds.high = bounds.high.cwiseMax(chunk.high);
+    bounds.num_points += chunk.num_points;
+  }
+  return bounds;
+}
+
 // From points to positions in voxels from the corner of the free cell below the cloud.
 class GridPosition {
  public:
@@ -70,88 +90,103 @@ VoxelKeyLayout MakeLayout(const VoxelGrid& grid, const Eigen::Vector3f& high) {
   return {bits[0], bits[0] + bits[1], bits[0] + bits[1] + bits[2]};
 }
 
-// The usable points' items, made of key and index.
-template <typename Item, typename MakeItem>
-std::vector<Item> MakeItems(const PointCloudView& cloud,
-                            const VoxelGrid& grid,
-                            std::size_t num_usable,
-                            int num_threads,
-                            const MakeItem& make_item) {
+// A point as it is sorted: the key of its voxel, then its index, in one number.
+struct PackedItems {
+  using Item = std::uint64_t;
+  int index_bits = 0;
+
+  Item Make(std::uint64_t key, std::uint32_t index) const { return key << index_bits | index; }
+  std::uint64_t KeyOf(Item item) const { return item >> index_bits; }
+  std::uint32_t IndexOf(Item item) const {
+    return static_cast<std::uint32_t>(item & ((std::uint64_t{1} << index_bits) - 1));
+  }
+  void Sort(LargeVector<Item>& items, int num_bits, int num_threads) const {
+    RadixSort(items, index_bits, num_bits, num_threads);
+  }
+};
+
+// The same for huge scenes, whose keys leave no room for an index.
+struct WideItems {
+  using Item = KeyedIndex;
+
+  static Item Make(std::uint64_t key, std::uint32_t index) { return {key, index}; }
+  static std::uint64_t KeyOf(const Item& item) { return item.key; }
+  static std::uint32_t IndexOf(const Item& item) { return item.index; }
+  static void Sort(LargeVector<Item>& items, int num_bits, int num_threads) {
+    RadixSort(items, num_bits, num_threads);
+  }
+};
+
+// Of all points, in order; those that are not usable have key 0, as no other: below the cloud the
+// cells are free.
+template <typename Form>
+LargeVector<typename Form::Item> MakeItems(const PointCloudView& cloud,
+                                           const VoxelGrid& grid,
+                                           bool all_usable,
+                                           int num_threads,
+                                           const Form& form) {
   const double max_coordinate = kMaxVoxelsFromZero * grid.voxel_size;
-  const bool all_usable = num_usable == cloud.points.size();
   const GridPosition position_of(grid);
-  std::vector<Item> items(cloud.points.size());
+  LargeVector<typename Form::Item> items(cloud.points.size());
   ParallelFor(items.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3f& point = cloud.points[i];
       if (!all_usable && !IsUsable(point, max_coordinate)) {
-        items[i] = make_item(0, 0);  // No usable point has key 0: below them the cells are free.
+        items[i] = form.Make(0, 0);
         continue;
       }
-      const Eigen::Vector3i cell = position_of(point).cast<std::int32_t>();
-      items[i] = make_item(grid.layout.Key(cell), static_cast<std::uint32_t>(i));
+      const Eigen::Vector3i cell = position_of(point).template cast<std::int32_t>();
+      items[i] = form.Make(grid.layout.Key(cell), static_cast<std::uint32_t>(i));
     }
   });
   return items;
 }
 
-// The points voxel by voxel: those of grid.keys[v] are points[begin[v] .. begin[v + 1]).
-struct PointsByVoxel {
-  std::vector<std::uint32_t> points;
-  std::vector<std::uint32_t> begin;
-
-  std::span<const std::uint32_t> Of(std::size_t voxel) const {
-    return std::span(points).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
-  }
-};
-
-// Also finds the grid's keys. `num_unusable` items come first in the order of keys.
-template <typename Item, typename KeyOf, typename IndexOf>
-PointsByVoxel Divide(const std::vector<Item>& items,
-                     std::size_t num_unusable,
-                     const KeyOf& key_of,
-                     const IndexOf& index_of,
-                     VoxelGrid& grid) {
-  PointsByVoxel result;
-  result.points.reserve(items.size() - num_unusable);
-  std::uint64_t last_key = 0;
-  for (std::size_t i = num_unusable; i < items.size(); ++i) {
-    const std::uint64_t key = key_of(items[i]);
-    if (key != last_key) {
-      result.begin.push_back(static_cast<std::uint32_t>(result.points.size()));
-      grid.keys.push_back(key);
+// Finds the grid's keys from the sorted items, and where those of each voxel begin, one more for
+// the end. `num_unusable` come first.
+template <typename Form>
+LargeVector<std::uint32_t> Divide(const LargeVector<typename Form::Item>& items,
+                                  std::size_t num_unusable,
+                                  int num_threads,
+                                  const Form& form,
+                                  VoxelGrid& grid) {
+  const std::size_t size = items.size() - num_unusable;
+  const std::size_t num_chunks = size / kGrain + 1;
+  // Calls body(item) for the first item of every voxel in a chunk.
+  const auto for_voxels = [&](std::size_t chunk, const auto& body) {
+    const std::size_t first = num_unusable + size * chunk / num_chunks;
+    const std::size_t last = num_unusable + size * (chunk + 1) / num_chunks;
+    std::uint64_t last_key = first == num_unusable ? 0 : form.KeyOf(items[first - 1]);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint64_t key = form.KeyOf(items[i]);
+      if (key != last_key) body(i);
       last_key = key;
     }
-    result.points.push_back(index_of(items[i]));
-  }
-  result.begin.push_back(static_cast<std::uint32_t>(result.points.size()));
-  return result;
-}
-
-PointsByVoxel SortPoints(const PointCloudView& cloud,
-                         std::size_t num_usable,
-                         int num_threads,
-                         VoxelGrid& grid) {
-  const std::size_t num_unusable = cloud.points.size() - num_usable;
-  const auto index_bits = static_cast<int>(std::bit_width(cloud.points.size()));
-  if (grid.layout.num_bits + index_bits <= 64) {  // All but huge scenes: half the memory to sort.
-    auto items = MakeItems<std::uint64_t>(
-        cloud, grid, num_usable, num_threads,
-        [&](std::uint64_t key, std::uint32_t index) { return key << index_bits | index; });
-    RadixSort(items, index_bits, grid.layout.num_bits, num_threads);
-    const std::uint64_t mask = (std::uint64_t{1} << index_bits) - 1;
-    return Divide(
-        items, num_unusable, [&](std::uint64_t item) { return item >> index_bits; },
-        [&](std::uint64_t item) { return static_cast<std::uint32_t>(item & mask); }, grid);
-  }
-  auto items = MakeItems<KeyedIndex>(cloud, grid, num_usable, num_threads,
-                                     [](std::uint64_t key, std::uint32_t index) {
-                                       return KeyedIndex{key, index};
-                                     });
-  RadixSort(items, grid.layout.num_bits, num_threads);
-  return Divide(
-      items, num_unusable, [](const KeyedIndex& item) { return item.key; },
-      [](const KeyedIndex& item) { return item.index; }, grid);
+  };
+  std::vector<std::size_t> begin_of_chunk(num_chunks + 1, 0);
+  const auto for_chunks = [&](const auto& body) {
+    ParallelFor(num_chunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t chunk = begin; chunk < end; ++chunk) body(chunk);
+    });
+  };
+  for_chunks([&](std::size_t chunk) {
+    std::size_t count = 0;
+    for_voxels(chunk, [&](std::size_t /*item*/) { ++count; });
+    begin_of_chunk[chunk + 1] = count;
+  });
+  std::partial_sum(begin_of_chunk.begin(), begin_of_chunk.end(), begin_of_chunk.begin());
+  grid.keys.reserve(begin_of_chunk.back() + kNumKeysBeyond);
+  grid.keys.resize(begin_of_chunk.back());
+  LargeVector<std::uint32_t> begin(grid.keys.size() + 1);
+  for_chunks([&](std::size_t chunk) {
+    std::size_t voxel = begin_of_chunk[chunk];
+    for_voxels(chunk, [&](std::size_t item) {
+      grid.keys[voxel] = form.KeyOf(items[item]);
+      begin[voxel++] = static_cast<std::uint32_t>(item);
+    });
+  });
+  begin.back() = static_cast<std::uint32_t>(items.size());
+  return begin;
 }
 
 // Three numbers, and one more that has no meaning.
@@ -170,9 +205,11 @@ struct Sums {
 };
 
 // Mean position and side of the points of one voxel.
+template <typename Form>
 void Accumulate(const PointCloudView& cloud,
                 const GridPosition& position_of,
-                std::span<const std::uint32_t> members,
+                std::span<const typename Form::Item> members,
+                const Form& form,
                 std::size_t voxel,
                 VoxelGrid& grid) {
   constexpr double kPositionScale = 1 << 20;
@@ -180,7 +217,9 @@ void Accumulate(const PointCloudView& cloud,
   const Eigen::Vector3d corner = grid.CellOf(voxel).cast<double>();
   Sums position;
   Sums view;
-  for (const std::uint32_t index : members) {
+  for (const auto& member : members) {
+    const std::uint32_t index = form.IndexOf(member);
+    grid.voxel_of_point[index] = static_cast<std::uint32_t>(voxel);
     const Eigen::Vector3d offset = (position_of(cloud.points[index]) - corner) * kPositionScale;
     position.Add(_mm_cvttpd_epi32(_mm_setr_pd(offset.x(), offset.y())),
                  _mm_cvttpd_epi32(_mm_set_sd(offset.z())));
@@ -199,108 +238,38 @@ void Accumulate(const PointCloudView& cloud,
   grid.views[voxel] = view.ToVector().cast<float>() / (kNormalScale * static_cast<float>(count));
 }
 
-// Points of a voxel lie anywhere in the cloud: memory is asked for them ahead of time.
-void Prefetch(const PointCloudView& cloud, std::span<const std::uint32_t> members) {
-  for (const std::uint32_t index : members) {
-    __builtin_prefetch(&cloud.points[index]);
-    if (!cloud.normals.empty()) __builtin_prefetch(&cloud.normals[index]);
-  }
-}
-
+// Sorts the points by their voxels, and fills those.
+template <typename Form>
 void FillVoxels(const PointCloudView& cloud,
-                const PointsByVoxel& points,
+                std::size_t num_usable,
                 int num_threads,
+                const Form& form,
                 VoxelGrid& grid) {
+  const std::size_t num_unusable = cloud.points.size() - num_usable;
+  auto items = MakeItems(cloud, grid, num_unusable == 0, num_threads, form);
+  form.Sort(items, grid.layout.num_bits, num_threads);
+  const LargeVector<std::uint32_t> begin = Divide(items, num_unusable, num_threads, form, grid);
+  grid.voxel_of_point.resize(cloud.points.size());
+  if (num_unusable > 0) std::ranges::fill(grid.voxel_of_point, kNoVoxel);
   grid.centroids.resize(grid.keys.size());
   grid.views.resize(grid.keys.size());
-  constexpr std::size_t kVoxelsAhead = 4;
   const GridPosition position_of(grid);
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    // Points of a voxel lie anywhere in the cloud: memory is asked for them ahead of time.
+    constexpr std::size_t kItemsAhead = 16;
+    std::size_t ahead = begin[first];
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      const auto members = points.Of(voxel);
-      Prefetch(cloud, points.Of(std::min(voxel + kVoxelsAhead, last - 1)));
-      Accumulate(cloud, position_of, members, voxel, grid);
-      for (const std::uint32_t index : members) {
-        grid.voxel_of_point[index] = static_cast<std::uint32_t>(voxel);
+      const auto members = std::span(items).subspan(begin[voxel], begin[voxel + 1] - begin[voxel]);
+      const std::size_t end = std::min<std::size_t>(begin[voxel + 1] + kItemsAhead, begin[last]);
+      for (; ahead < end; ++ahead) {
+        const std::uint32_t index = form.IndexOf(items[ahead]);
+        __builtin_prefetch(&cloud.points[index]);
+        if (!cloud.normals.empty()) __builtin_prefetch(&cloud.normals[index]);
+        __builtin_prefetch(&grid.voxel_of_point[index], 1);
       }
+      Accumulate<Form>(cloud, position_of, members, form, voxel, grid);
     }
   });
-}
-
-// Walks the nine rows of three cells around each voxel along with it: the keys ascend, so that nine
-// places in the sorted array only ever move up.
-class NeighbourWalk {
- public:
-  NeighbourWalk(const std::vector<std::uint64_t>& keys,
-                const VoxelKeyLayout& layout,
-                std::size_t first)
-      : keys_(keys) {
-    std::size_t row = 0;
-    for (int dz = -1; dz <= 1; ++dz) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        // Two's complement makes the sum right for negative steps too.
-        offsets_[row] =
-            static_cast<std::uint64_t>(std::int64_t{dz} * (std::int64_t{1} << layout.shift_z) +
-                                       std::int64_t{dy} * (std::int64_t{1} << layout.shift_y) - 1);
-        places_[row] = static_cast<std::size_t>(
-            std::lower_bound(keys.begin(), keys.end(), keys[first] + offsets_[row]) - keys.begin());
-        ++row;
-      }
-    }
-  }
-
-  // Appends the neighbours in ascending order and returns their bits; voxels must come in ascending
-  // order too.
-  std::uint32_t Collect(std::size_t voxel, std::vector<std::uint32_t>& neighbours) {
-    std::uint32_t bits = 0;
-    std::array<std::uint32_t, 29> found;  // NOLINT: written before it is read.
-    std::size_t num_found = 0;
-    for (std::size_t row = 0; row < offsets_.size(); ++row) {
-      const std::uint64_t low = keys_[voxel] + offsets_[row];
-      std::size_t place = places_[row];
-      while (keys_[place] < low) ++place;
-      places_[row] = place;
-      for (std::size_t i = 0; i < 3; ++i) {  // Without branches: nobody could predict them.
-        const std::uint64_t step = keys_[place + i] - low;
-        const std::uint32_t is_near = step <= 2 ? 1 : 0;
-        bits |= is_near << (3 * row + (step & 3));
-        found[num_found] = static_cast<std::uint32_t>(place + i);
-        num_found += is_near & (place + i != voxel ? 1U : 0U);
-      }
-    }
-    neighbours.insert(neighbours.end(), found.begin(), found.begin() + num_found);
-    return bits;
-  }
-
- private:
-  const std::vector<std::uint64_t>& keys_;
-  std::array<std::uint64_t, 9> offsets_{};
-  std::array<std::size_t, 9> places_{};
-};
-
-void FindNeighbours(int num_threads, VoxelGrid& grid) {
-  constexpr std::size_t kSize = VoxelNeighbours::kChunkSize;
-  constexpr std::size_t kUsualNeighbours = 16;
-  std::vector<VoxelNeighbours::Chunk> chunks((grid.size() + kSize - 1) / kSize);
-  grid.neighbour_bits.resize(grid.size());
-  // So that three keys may be looked at from any place on. None is near a voxel.
-  grid.keys.insert(grid.keys.end(), 3, std::numeric_limits<std::uint64_t>::max());
-  ParallelFor(chunks.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      VoxelNeighbours::Chunk& chunk = chunks[i];
-      const std::size_t first = i * kSize;
-      const std::size_t last = std::min(first + kSize, grid.size());
-      chunk.begin.reserve(last - first + 1);
-      chunk.indices.reserve(kUsualNeighbours * (last - first));
-      NeighbourWalk walk(grid.keys, grid.layout, first);
-      for (std::size_t voxel = first; voxel < last; ++voxel) {
-        grid.neighbour_bits[voxel] = walk.Collect(voxel, chunk.indices);
-        chunk.begin.push_back(static_cast<std::uint32_t>(chunk.indices.size()));
-      }
-    }
-  });
-  grid.keys.resize(grid.size());
-  grid.neighbours = VoxelNeighbours(std::move(chunks));
 }
 
 }  // namespace
@@ -312,13 +281,20 @@ VoxelGrid BuildVoxelGrid(const PointCloudView& cloud, double voxel_size, int num
       << cloud.points.size() << " points, " << cloud.normals.size() << " normals";
   VoxelGrid grid;
   grid.voxel_size = voxel_size;
-  grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
-  const Bounds bounds = FindBounds(cloud.points, kMaxVoxelsFromZero * voxel_size);
-  if (bounds.num_points == 0) return grid;
+  const Bounds bounds = FindBounds(cloud.points, kMaxVoxelsFromZero * voxel_size, num_threads);
+  if (bounds.num_points == 0) {
+    grid.voxel_of_point.assign(cloud.points.size(), kNoVoxel);
+    return grid;
+  }
 
   grid.origin = bounds.low.cast<double>();
   grid.layout = MakeLayout(grid, bounds.high);
-  FillVoxels(cloud, SortPoints(cloud, bounds.num_points, num_threads, grid), num_threads, grid);
+  const auto index_bits = static_cast<int>(std::bit_width(cloud.points.size()));
+  if (grid.layout.num_bits + index_bits <= 64) {
+    FillVoxels(cloud, bounds.num_points, num_threads, PackedItems{index_bits}, grid);
+  } else {
+    FillVoxels(cloud, bounds.num_points, num_threads, WideItems(), grid);
+  }
   FindNeighbours(num_threads, grid);
   return grid;
 }

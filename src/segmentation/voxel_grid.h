@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "semslam/base/large_vector.h"
 #include "semslam/segmentation/segmenter.h"
 
 namespace semslam {
@@ -40,10 +41,10 @@ struct VoxelKeyLayout {
 // one thread.
 class VoxelNeighbours {
  public:
-  static constexpr std::size_t kChunkSize = 16384;  // Voxels.
+  static constexpr std::size_t kChunkSize = 32768;  // Voxels.
   struct Chunk {
-    std::vector<std::uint32_t> begin = {0};  // Of each voxel's, and of the end.
-    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> begin;  // Of each voxel's, and of the end.
+    LargeVector<std::uint32_t> indices;
   };
 
   VoxelNeighbours() = default;
@@ -71,13 +72,13 @@ struct VoxelGrid {
   double voxel_size = 0;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   VoxelKeyLayout layout;
-  std::vector<std::uint64_t> keys;            // Ascending; from high to low bits z, y, x.
-  std::vector<Eigen::Vector3f> centroids;     // Of the points inside.
-  std::vector<Eigen::Vector3f> views;         // Mean side that was seen; zero if unknown.
-  std::vector<std::uint32_t> voxel_of_point;  // kNoVoxel for points that are left out.
+  LargeVector<std::uint64_t> keys;            // Ascending; from high to low bits z, y, x.
+  LargeVector<Eigen::Vector3f> centroids;     // Of the points inside.
+  LargeVector<Eigen::Vector3f> views;         // Mean side that was seen; zero if unknown.
+  LargeVector<std::uint32_t> voxel_of_point;  // kNoVoxel for points that are left out.
   VoxelNeighbours neighbours;
   // Which of the 27 cells around voxel v are occupied: bit NeighbourBit of the step, its own too.
-  std::vector<std::uint32_t> neighbour_bits;
+  LargeVector<std::uint32_t> neighbour_bits;
 
   // Ascending as the neighbours do.
   static constexpr int NeighbourBit(int dx, int dy, int dz) {
@@ -96,6 +97,12 @@ struct VoxelGrid {
   Eigen::Vector3i CellOf(std::size_t voxel) const { return layout.CellOf(keys[voxel]); }
   std::span<const std::uint32_t> NeighboursOf(std::size_t voxel) const {
     return neighbours.Of(voxel);
+  }
+  // Those of them that come before the voxel itself.
+  std::span<const std::uint32_t> LowerNeighboursOf(std::size_t voxel) const {
+    constexpr std::uint32_t kLower = (std::uint32_t{1} << NeighbourBit(0, 0, 0)) - 1;
+    return NeighboursOf(voxel).first(
+        static_cast<std::size_t>(CountBits(neighbour_bits[voxel] & kLower)));
   }
   // The voxel at a NeighbourBit other than the middle one; kNoVoxel if there is none.
   std::uint32_t NeighbourAt(std::size_t voxel, int bit) const {

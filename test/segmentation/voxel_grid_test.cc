@@ -25,9 +25,9 @@ std::vector<Eigen::Vector3f> RandomPoints(std::size_t count, float extent, std::
 
 TEST(RadixSort, OrdersLikeAStableSort) {
   Random random(5);
-  std::vector<KeyedIndex> items;
+  LargeVector<KeyedIndex> items;
   for (std::uint32_t i = 0; i < 5000; ++i) items.push_back({random() >> 30 & ~0xfULL, i});
-  std::vector<KeyedIndex> expected = items;
+  LargeVector<KeyedIndex> expected = items;
   std::stable_sort(expected.begin(), expected.end(),
                    [](const auto& a, const auto& b) { return a.key < b.key; });
   RadixSort(items, 34, 2);
