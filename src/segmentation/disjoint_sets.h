@@ -41,11 +41,10 @@ class DisjointSets {
     return least;
   }
 
-  // The representative of every member.
-  std::vector<std::uint32_t> Representatives() && {
-    // A parent is never above its member, so that it is done already.
-    for (std::uint32_t& parent : parent_) parent = parent_[parent];
-    return std::move(parent_);
+  // As Find, but changes nothing: several threads may ask.
+  std::uint32_t Representative(std::uint32_t member) const {
+    while (parent_[member] != member) member = parent_[member];
+    return member;
   }
 
  private:

@@ -6,13 +6,19 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "semslam/base/key_numbers.h"
+#include "semslam/base/large_vector.h"
 #include "semslam/base/parallel.h"
+
+#include "segmentation/voxel_groups.h"
 
 namespace semslam {
 namespace {
+
+constexpr std::size_t kVoxelGrain = 8192;
 
 // Only the upper triangle of the outer products is summed on the way.
 struct PatchSums {
@@ -37,44 +43,57 @@ struct PatchSums {
 struct Work {
   const VoxelGrid& grid;
   const std::vector<Eigen::Vector3f>& normals;
-  const Supervoxels& supervoxels;
-  const std::vector<std::uint8_t> is_open;  // By patch. Not of bool: it is read all the time.
+  std::span<const std::uint32_t> patch_of_voxel;
+  // By patch. Not of bool: it is read all the time.
+  std::vector<std::uint8_t> is_open;
+  bool all_open = false;
+  VoxelGroups voxels;  // Of the open patches.
   int num_threads;
-
-  // kNoPatch for a voxel that counts for none.
-  std::uint32_t OpenPatchOf(std::size_t voxel) const {
-    const std::uint32_t patch = supervoxels.patch_of_voxel[voxel];
-    return patch == kNoPatch || is_open[patch] == 0 ? kNoPatch : patch;
-  }
 };
 
-void MakePatches(const Work& work, std::vector<Patch>& patches) {
-  const VoxelGrid& grid = work.grid;
-  std::vector<PatchSums> sums(patches.size());
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    const std::uint32_t index = work.OpenPatchOf(voxel);
-    if (index == kNoPatch) continue;
-    PatchSums& patch = sums[index];
-    const Eigen::Vector3d p = grid.centroids[voxel].cast<double>();
-    patch.count += 1;
-    patch.sum += p;
-    patch.squares += p.cwiseProduct(p);
-    patch.products += Eigen::Vector3d(p.y() * p.z(), p.z() * p.x(), p.x() * p.y());
-    patch.normal += work.normals[voxel].cast<double>();
-  }
-  ParallelFor(patches.size(), 256, work.num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      if (work.is_open[i] == 0) continue;
-      Patch& patch = patches[i];
-      patch.moments = sums[i].ToMoments();
-      patch.num_voxels = static_cast<std::size_t>(sums[i].count);
-      patch.centroid = patch.moments.Mean();
-      patch.normal = sums[i].normal.normalized();  // Leaves a zero vector as it is.
-      if (const std::optional<PlaneFit> fit = FitPlane(patch.moments)) {
-        patch.variation = fit->variation;
-      }
+// The same labels, but kNoPatch where the patch is not open.
+LargeVector<std::uint32_t> KeepOpen(std::span<const std::uint32_t> patch_of_voxel,
+                                    const std::vector<std::uint8_t>& is_open,
+                                    int num_threads) {
+  LargeVector<std::uint32_t> kept(patch_of_voxel.size());
+  ParallelFor(kept.size(), kVoxelGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last; ++voxel) {
+      const std::uint32_t patch = patch_of_voxel[voxel];
+      kept[voxel] = patch == kNoPatch || is_open[patch] == 0 ? kNoPatch : patch;
     }
   });
+  return kept;
+}
+
+// Calls body(patch) for the open patches, side by side.
+template <typename Body>
+void ForOpenPatches(const Work& work, const Body& body) {
+  constexpr std::size_t kGrain = 128;
+  const auto body_if_open = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (work.is_open[i] != 0) body(i);
+    }
+  };
+  ParallelFor(work.is_open.size(), kGrain, work.num_threads, body_if_open);
+}
+
+void MakePatch(const Work& work, std::span<const std::uint32_t> voxels, Patch& patch) {
+  PatchSums sums;
+  for (const std::uint32_t voxel : voxels) {
+    const Eigen::Vector3d p = work.grid.centroids[voxel].cast<double>();
+    sums.count += 1;
+    sums.sum += p;
+    sums.squares += p.cwiseProduct(p);
+    sums.products += Eigen::Vector3d(p.y() * p.z(), p.z() * p.x(), p.x() * p.y());
+    sums.normal += work.normals[voxel].cast<double>();
+  }
+  patch.moments = sums.ToMoments();
+  patch.num_voxels = voxels.size();
+  patch.centroid = patch.moments.Mean();
+  patch.normal = sums.normal.normalized();  // Leaves a zero vector as it is.
+  if (const std::optional<PlaneFit> fit = FitPlane(patch.moments)) {
+    patch.variation = fit->variation;
+  }
 }
 
 // Number of voxels of the surface that stand in one column with `voxel`, which is one of them.
@@ -102,26 +121,18 @@ int CountColumn(const VoxelGrid& grid,
 // The area of a patch is that of its shadow along the axis its normal is nearest to, over the
 // cosine between them. A column of the shadow is shared by all voxels of the surface in it, so that
 // a surface that noise has made several voxels thick is counted once.
-void MeasureAreas(const Work& work, std::vector<Patch>& patches) {
-  const VoxelGrid& grid = work.grid;
-  std::vector<float> shares(grid.size());
-  ParallelFor(grid.size(), 8192, work.num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t voxel = first; voxel < last; ++voxel) {
-      const std::uint32_t index = work.OpenPatchOf(voxel);
-      if (index == kNoPatch) continue;
-      const Eigen::Vector3f normal = patches[index].normal.cast<float>();
-      int axis = 0;
-      const float cosine = normal.cwiseAbs().maxCoeff(&axis);
-      const int count =
-          CountColumn(grid, work.normals, normal, static_cast<std::uint32_t>(voxel), axis);
-      shares[voxel] = 1.0F / (static_cast<float>(count) * (cosine > 0 ? cosine : 1.0F));
-    }
-  });
-  const double face = grid.voxel_size * grid.voxel_size;
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    const std::uint32_t index = work.OpenPatchOf(voxel);
-    if (index != kNoPatch) patches[index].area += face * static_cast<double>(shares[voxel]);
+double MeasureArea(const Work& work, std::span<const std::uint32_t> voxels, const Patch& patch) {
+  const Eigen::Vector3f normal = patch.normal.cast<float>();
+  int axis = 0;
+  const float cosine = normal.cwiseAbs().maxCoeff(&axis);
+  const double face = work.grid.voxel_size * work.grid.voxel_size;
+  double area = 0;
+  for (const std::uint32_t voxel : voxels) {
+    const int count = CountColumn(work.grid, work.normals, normal, voxel, axis);
+    const float share = 1.0F / (static_cast<float>(count) * (cosine > 0 ? cosine : 1.0F));
+    area += face * static_cast<double>(share);
   }
+  return area;
 }
 
 // Contacts between patches, counted: the pairs (lower patch in the high bits) and how often each.
@@ -131,6 +142,9 @@ struct Contacts {
   std::uint64_t last_pair = 0;  // Is none: the lower patch comes first.
   std::uint32_t last_number = 0;
 
+  void Add(std::uint32_t a, std::uint32_t b) {
+    Add(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), std::uint32_t{1});
+  }
   void Add(std::uint64_t pair, std::uint32_t count) {
     if (pair != last_pair) {  // Mostly it is the same.
       last_pair = pair;
@@ -141,22 +155,35 @@ struct Contacts {
   }
 };
 
+// If all patches are open: of each pair of voxels the higher looks at the lower.
+void CountAllContacts(const Work& work, std::size_t first, std::size_t last, Contacts& contacts) {
+  std::array<std::uint32_t, 27> found{};
+  for (std::size_t voxel = first; voxel < last; ++voxel) {
+    const std::uint32_t a = work.patch_of_voxel[voxel];
+    if (a == kNoPatch) continue;
+    std::size_t num_found = 0;
+    for (const std::uint32_t other : work.grid.LowerNeighboursOf(voxel)) {
+      const std::uint32_t b = work.patch_of_voxel[other];
+      found[num_found] = b;  // Without a branch: nobody could predict it.
+      num_found += b != a ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < num_found; ++i) {
+      if (found[i] != kNoPatch) contacts.Add(a, found[i]);
+    }
+  }
+}
+
 // Of open patches, among each other and with the others.
 void CountContacts(const Work& work, std::size_t first, std::size_t last, Contacts& contacts) {
-  const std::vector<std::uint32_t>& patch_of_voxel = work.supervoxels.patch_of_voxel;
   for (std::size_t voxel = first; voxel < last; ++voxel) {
-    const std::uint32_t a = work.OpenPatchOf(voxel);
-    if (a == kNoPatch) continue;
+    const std::uint32_t a = work.patch_of_voxel[voxel];
+    if (a == kNoPatch || work.is_open[a] == 0) continue;
     for (const std::uint32_t other : work.grid.NeighboursOf(voxel)) {
-      const std::uint32_t b = patch_of_voxel[other];
+      const std::uint32_t b = work.patch_of_voxel[other];
       if (b == a || b == kNoPatch) continue;
-      // Between open patches both directions of a pair of voxels are seen: that from the lower
-      // patch counts.
-      if (b > a) {
-        contacts.Add(std::uint64_t{a} << 32 | b, 1);
-      } else if (work.is_open[b] == 0) {
-        contacts.Add(std::uint64_t{b} << 32 | a, 1);
-      }
+      // Between open patches both directions of a pair of voxels are seen: that to the lower
+      // counts.
+      if (other < voxel || work.is_open[b] == 0) contacts.Add(a, b);
     }
   }
 }
@@ -168,8 +195,10 @@ void FindEdges(const Work& work, std::vector<PatchEdge>& edges) {
   std::vector<Contacts> contacts(kNumChunks);
   ParallelFor(kNumChunks, 1, work.num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      CountContacts(work, size * chunk / kNumChunks, size * (chunk + 1) / kNumChunks,
-                    contacts[chunk]);
+      const std::size_t first = size * chunk / kNumChunks;
+      const std::size_t last = size * (chunk + 1) / kNumChunks;
+      work.all_open ? CountAllContacts(work, first, last, contacts[chunk])
+                    : CountContacts(work, first, last, contacts[chunk]);
     }
   });
   Contacts all;
@@ -190,9 +219,12 @@ void FindEdges(const Work& work, std::vector<PatchEdge>& edges) {
 }
 
 void Complete(const Work& work, PatchGraph& graph) {
-  MakePatches(work, graph.patches);
+  ForOpenPatches(work, [&](std::size_t i) {
+    Patch& patch = graph.patches[i];
+    MakePatch(work, work.voxels.Of(i), patch);
+    patch.area = MeasureArea(work, work.voxels.Of(i), patch);
+  });
   FindEdges(work, graph.edges);
-  MeasureAreas(work, graph.patches);
 }
 
 }  // namespace
@@ -201,9 +233,11 @@ PatchGraph BuildPatchGraph(const VoxelGrid& grid,
                            const std::vector<Eigen::Vector3f>& normals,
                            const Supervoxels& supervoxels,
                            int num_threads) {
-  PatchGraph graph{std::vector<Patch>(supervoxels.num_patches), {}};
-  std::vector<std::uint8_t> is_open(supervoxels.num_patches, 1);
-  Complete({grid, normals, supervoxels, std::move(is_open), num_threads}, graph);
+  const std::size_t num_patches = supervoxels.num_patches;
+  PatchGraph graph{std::vector<Patch>(num_patches), {}};
+  Complete({grid, normals, supervoxels.patch_of_voxel, std::vector<std::uint8_t>(num_patches, 1),
+            true, GroupVoxels(supervoxels.patch_of_voxel, num_patches, num_threads), num_threads},
+           graph);
   return graph;
 }
 
@@ -229,7 +263,11 @@ PatchGraph UpdatePatchGraph(const VoxelGrid& grid,
     const std::uint32_t b = new_number[edge.b];
     if (a != kNoPatch && b != kNoPatch) graph.edges.push_back({a, b, edge.num_contacts});
   }
-  Complete({grid, normals, supervoxels, std::move(is_open), num_threads}, graph);
+  VoxelGroups voxels = GroupVoxels(KeepOpen(supervoxels.patch_of_voxel, is_open, num_threads),
+                                   supervoxels.num_patches, num_threads);
+  Complete({grid, normals, supervoxels.patch_of_voxel, std::move(is_open), false, std::move(voxels),
+            num_threads},
+           graph);
   return graph;
 }
 

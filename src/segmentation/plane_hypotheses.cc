@@ -26,10 +26,17 @@ constexpr std::size_t kMaxScoredPlanes = 4000;
 
 void AddPlanesOfFlatPatches(const std::vector<Patch>& patches,
                             const PlaneHypothesisOptions& options,
+                            int num_threads,
                             std::vector<Plane>& planes) {
-  for (const Patch& patch : patches) {
-    if (patch.variation >= options.max_variation) continue;
-    if (const std::optional<PlaneFit> fit = FitPlane(patch.moments)) planes.push_back(fit->plane);
+  constexpr std::size_t kGrain = 256;
+  std::vector<std::optional<PlaneFit>> fits(patches.size());
+  ParallelFor(patches.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (patches[i].variation < options.max_variation) fits[i] = FitPlane(patches[i].moments);
+    }
+  });
+  for (const std::optional<PlaneFit>& fit : fits) {
+    if (fit) planes.push_back(fit->plane);
   }
 }
 
@@ -103,10 +110,11 @@ std::vector<T> Pick(const std::vector<T>& values, const std::vector<std::size_t>
 
 // The best of every cell, best supported first, less those without the least support.
 std::vector<Plane> Merge(const std::vector<Patch>& patches,
+                         const PatchTable& table,
                          const std::vector<Plane>& planes,
                          const PlaneHypothesisOptions& options,
                          int num_threads) {
-  const std::vector<double> supports = SoftSupports(patches, planes, options, num_threads);
+  const std::vector<double> supports = SoftSupports(table, planes, options, num_threads);
   std::vector<std::size_t> kept = BestOfCells(planes, supports, MeanCentroid(patches), options);
   std::erase_if(kept, [&](std::size_t index) { return supports[index] < options.min_area; });
   std::stable_sort(kept.begin(), kept.end(),
@@ -118,10 +126,10 @@ std::vector<Plane> Merge(const std::vector<Patch>& patches,
 // all before them do. The others could not lower the energy of the selection, but would make it
 // quadratically dearer.
 std::vector<Plane> KeepNovel(const std::vector<Patch>& patches,
+                             const PatchTable& table,
                              const std::vector<Plane>& planes,
                              const PlaneHypothesisOptions& options) {
   const double max_cost = 20 * options.tolerance;
-  const PatchTable table(patches);
   std::vector<double> best(patches.size(), 0.0);
   std::vector<std::pair<std::size_t, double>> support;
   std::vector<Plane> kept;
@@ -189,21 +197,22 @@ std::vector<Plane> ProposePlanes(const std::vector<Patch>& patches,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads) {
   std::vector<Plane> planes;
-  AddPlanesOfFlatPatches(patches, options, planes);
+  AddPlanesOfFlatPatches(patches, options, num_threads, planes);
   if (planes.size() > kMaxScoredPlanes) {  // Scoring them all would be quadratic in the scene.
     const std::vector<double> equal(planes.size(), 1.0);
     planes = Pick(planes, BestOfCells(planes, equal, MeanCentroid(patches), options));
   }
   AddRandomPlanes(patches, options, planes);
-  planes = Merge(patches, planes, options, num_threads);
-  if (planes.size() > options.max_planes) planes.resize(options.max_planes);
   const PatchTable table(patches);
+  planes = Merge(patches, table, planes, options, num_threads);
+  if (planes.size() > options.max_planes) planes.resize(options.max_planes);
   ParallelFor(planes.size(), 8, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       planes[i] = RefitPlane(patches, table, planes[i], options);
     }
   });
-  return KeepNovel(patches, Merge(patches, planes, options, num_threads), options);
+  planes = Merge(patches, table, planes, options, num_threads);
+  return KeepNovel(patches, table, planes, options);
 }
 
 }  // namespace semslam

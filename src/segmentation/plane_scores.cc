@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "semslam/base/parallel.h"
-
-#include "segmentation/patch_table.h"
 
 namespace semslam {
 namespace {
@@ -24,17 +23,39 @@ double AngleTerm(const Plane& a, const Plane& b) {
   return 0.5 * (1.0 - std::exp(-q / 0.25));
 }
 
+// Of the planes near one patch: their indices and what it gives them.
+using PlaneWeights = std::vector<std::pair<Eigen::Index, double>>;
+
+std::vector<PlaneWeights> WeighPlanes(const std::vector<Patch>& patches,
+                                      std::span<const Plane> planes,
+                                      const PlaneHypothesisOptions& options,
+                                      int num_threads) {
+  constexpr std::size_t kGrain = 256;
+  const double unit = 1.0 / (kSupportScale * options.min_area);
+  std::vector<PlaneWeights> weights(patches.size());
+  ParallelFor(patches.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Patch& patch = patches[i];
+      for (std::size_t m = 0; m < planes.size(); ++m) {
+        const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
+        if (cost > 20 * options.tolerance) continue;
+        weights[i].emplace_back(m, unit * patch.area * SoftWeight(cost, options.tolerance));
+      }
+    }
+  });
+  return weights;
+}
+
 }  // namespace
 
-std::vector<double> SoftSupports(const std::vector<Patch>& patches,
+std::vector<double> SoftSupports(const PatchTable& patches,
                                  std::span<const Plane> planes,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads) {
-  const PatchTable table(patches);
   std::vector<double> supports(planes.size(), 0.0);
   ParallelFor(planes.size(), 16, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t m = first; m < last; ++m) {
-      supports[m] = table.SoftSupport(planes[m], options.tolerance, options.min_normal_cosine);
+      supports[m] = patches.SoftSupport(planes[m], options.tolerance, options.min_normal_cosine);
     }
   });
   return supports;
@@ -42,19 +63,11 @@ std::vector<double> SoftSupports(const std::vector<Patch>& patches,
 
 SelectionEnergy MakeSelectionEnergy(const std::vector<Patch>& patches,
                                     std::span<const Plane> planes,
-                                    const PlaneHypothesisOptions& options) {
+                                    const PlaneHypothesisOptions& options,
+                                    int num_threads) {
   const auto size = static_cast<Eigen::Index>(planes.size());
-  const double unit = 1.0 / (kSupportScale * options.min_area);
   SelectionEnergy energy{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
-  std::vector<std::pair<Eigen::Index, double>> weights;
-  for (const Patch& patch : patches) {
-    weights.clear();
-    for (Eigen::Index m = 0; m < size; ++m) {
-      const double cost =
-          PatchCost(patch, planes[static_cast<std::size_t>(m)], options.min_normal_cosine);
-      if (cost > 20 * options.tolerance) continue;
-      weights.emplace_back(m, unit * patch.area * SoftWeight(cost, options.tolerance));
-    }
+  for (const PlaneWeights& weights : WeighPlanes(patches, planes, options, num_threads)) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const auto [m, weight_m] = weights[i];
       energy.unary[m] -= weight_m;

@@ -13,6 +13,7 @@
 #include "semslam/geometry/plane.h"
 #include "semslam/segmentation/options.h"
 
+#include "segmentation/patch_table.h"
 #include "segmentation/patches.h"
 
 namespace semslam {
@@ -27,7 +28,7 @@ inline double PatchCost(const Patch& patch, const Plane& plane, double min_norma
 }
 
 // Soft support S_m = sum_i a_i exp(-k_im / (2 tau)) of each plane, square metres.
-std::vector<double> SoftSupports(const std::vector<Patch>& patches,
+std::vector<double> SoftSupports(const PatchTable& patches,
                                  std::span<const Plane> planes,
                                  const PlaneHypothesisOptions& options,
                                  int num_threads);
@@ -46,6 +47,7 @@ struct SelectionEnergy {
 //   explains no second time.
 SelectionEnergy MakeSelectionEnergy(const std::vector<Patch>& patches,
                                     std::span<const Plane> planes,
-                                    const PlaneHypothesisOptions& options);
+                                    const PlaneHypothesisOptions& options,
+                                    int num_threads);
 
 }  // namespace semslam

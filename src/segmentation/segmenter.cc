@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "semslam/base/large_vector.h"
+#include "semslam/base/parallel.h"
 #include "semslam/base/stopwatch.h"
 
 #include "segmentation/components.h"
@@ -38,12 +40,17 @@ std::vector<Plane> KeepSelected(const std::vector<Plane>& planes,
 }
 
 std::vector<SegmentId> SegmentOfPoints(const VoxelGrid& grid,
-                                       const std::vector<SegmentId>& segment_of_voxel) {
-  std::vector<SegmentId> segment_of_point;
-  segment_of_point.reserve(grid.voxel_of_point.size());
-  for (const std::uint32_t voxel : grid.voxel_of_point) {
-    segment_of_point.push_back(voxel == kNoVoxel ? 0 : segment_of_voxel[voxel]);
-  }
+                                       const LargeVector<SegmentId>& segment_of_voxel,
+                                       int num_threads) {
+  constexpr std::size_t kGrain = 16384;
+  std::vector<SegmentId> segment_of_point(grid.voxel_of_point.size());
+  ParallelFor(segment_of_point.size(), kGrain, num_threads,
+              [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                  const std::uint32_t voxel = grid.voxel_of_point[i];
+                  segment_of_point[i] = voxel == kNoVoxel ? 0 : segment_of_voxel[voxel];
+                }
+              });
   return segment_of_point;
 }
 
@@ -77,7 +84,8 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver&
   result.num_hypotheses = planes.size();
   result.times.planes = Lap(watch);
   begin("plane selection");
-  const SelectionEnergy energy = MakeSelectionEnergy(graph.patches, planes, options_.planes);
+  const SelectionEnergy energy =
+      MakeSelectionEnergy(graph.patches, planes, options_.planes, num_threads);
   planes = KeepSelected(planes, SelectPlanes(energy, options_.selection));
   result.times.selection = Lap(watch);
   begin("plane assignment");
@@ -96,8 +104,9 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver&
 
   begin("segments");
   const Components components = FindComponents(graph, plane_labels, options_.components);
-  const std::vector<SegmentId> segment_of_voxel = SegmentOfVoxels(supervoxels, components);
-  result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel);
+  const LargeVector<SegmentId> segment_of_voxel =
+      SegmentOfVoxels(supervoxels, components, num_threads);
+  result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel, num_threads);
   result.times.components = Lap(watch);
   result.planes = ToCloudFrame(planes, graph, plane_labels, grid.origin);
   result.segments = Summarise(grid, graph, components, result.planes, segment_of_voxel,

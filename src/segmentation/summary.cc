@@ -4,43 +4,48 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <span>
 
 #include "semslam/base/parallel.h"
+
+#include "segmentation/voxel_groups.h"
 
 namespace semslam {
 namespace {
 
-// The voxels of all segments, segment by segment: those of id i are voxels[begin[i] .. begin[i +
-// 1]).
-struct VoxelsBySegment {
-  std::vector<std::uint32_t> voxels;
-  std::vector<std::size_t> begin;
-};
+constexpr std::size_t kGrain = 16384;
 
-VoxelsBySegment SortBySegment(const std::vector<SegmentId>& segment_of_voxel,
-                              std::size_t num_segments) {
-  VoxelsBySegment result{{}, std::vector<std::size_t>(num_segments + 2, 0)};
-  for (const SegmentId id : segment_of_voxel) ++result.begin[id + 1];
-  std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
-  std::vector<std::size_t> next = result.begin;
-  result.voxels.resize(segment_of_voxel.size());
-  for (std::size_t voxel = 0; voxel < segment_of_voxel.size(); ++voxel) {
-    result.voxels[next[segment_of_voxel[voxel]]++] = static_cast<std::uint32_t>(voxel);
-  }
-  return result;
-}
-
-// Their centroids, in the cloud's coordinates.
+// The voxels' centroids, in the cloud's coordinates.
 std::vector<Eigen::Vector3d> PointsOf(const VoxelGrid& grid,
-                                      const VoxelsBySegment& voxels,
-                                      SegmentId id) {
+                                      std::span<const std::uint32_t> voxels) {
   std::vector<Eigen::Vector3d> points;
-  points.reserve(voxels.begin[id + 1] - voxels.begin[id]);
-  for (std::size_t i = voxels.begin[id]; i < voxels.begin[id + 1]; ++i) {
-    points.push_back(grid.origin + grid.centroids[voxels.voxels[i]].cast<double>());
+  points.reserve(voxels.size());
+  for (const std::uint32_t voxel : voxels) {
+    points.push_back(grid.origin + grid.centroids[voxel].cast<double>());
   }
   return points;
+}
+
+// By the id of the segment; 0: of none.
+std::vector<std::size_t> CountPoints(std::span<const SegmentId> segment_of_point,
+                                     std::size_t num_ids,
+                                     int num_threads) {
+  constexpr std::size_t kNumChunks = 8;
+  const std::size_t size = segment_of_point.size();
+  std::vector<std::vector<std::size_t>> of_chunks(kNumChunks);
+  ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t chunk = begin; chunk < end; ++chunk) {
+      of_chunks[chunk].resize(num_ids);
+      for (std::size_t i = size * chunk / kNumChunks; i < size * (chunk + 1) / kNumChunks; ++i) {
+        ++of_chunks[chunk][segment_of_point[i]];
+      }
+    }
+  });
+  std::vector<std::size_t> counts(num_ids, 0);
+  for (const std::vector<std::size_t>& chunk : of_chunks) {
+    for (std::size_t id = 0; id < counts.size(); ++id) counts[id] += chunk[id];
+  }
+  return counts;
 }
 
 void LinkNeighbours(const PatchGraph& graph,
@@ -81,15 +86,19 @@ std::vector<Plane> ToCloudFrame(const std::vector<Plane>& planes,
   return result;
 }
 
-std::vector<SegmentId> SegmentOfVoxels(const Supervoxels& supervoxels,
-                                       const Components& components) {
-  std::vector<SegmentId> segment_of_voxel;
-  segment_of_voxel.reserve(supervoxels.patch_of_voxel.size());
-  for (const std::uint32_t patch : supervoxels.patch_of_voxel) {
-    const std::uint32_t component =
-        patch == kNoPatch ? kNoComponent : components.component_of_patch[patch];
-    segment_of_voxel.push_back(component == kNoComponent ? 0 : component + 1);
-  }
+LargeVector<SegmentId> SegmentOfVoxels(const Supervoxels& supervoxels,
+                                       const Components& components,
+                                       int num_threads) {
+  LargeVector<SegmentId> segment_of_voxel(supervoxels.patch_of_voxel.size());
+  ParallelFor(segment_of_voxel.size(), kGrain, num_threads,
+              [&](std::size_t first, std::size_t last) {
+                for (std::size_t voxel = first; voxel < last; ++voxel) {
+                  const std::uint32_t patch = supervoxels.patch_of_voxel[voxel];
+                  const std::uint32_t component =
+                      patch == kNoPatch ? kNoComponent : components.component_of_patch[patch];
+                  segment_of_voxel[voxel] = component == kNoComponent ? 0 : component + 1;
+                }
+              });
   return segment_of_voxel;
 }
 
@@ -97,17 +106,20 @@ std::vector<Segment> Summarise(const VoxelGrid& grid,
                                const PatchGraph& graph,
                                const Components& components,
                                const std::vector<Plane>& planes,
-                               const std::vector<SegmentId>& segment_of_voxel,
+                               const LargeVector<SegmentId>& segment_of_voxel,
                                const std::vector<SegmentId>& segment_of_point,
                                int num_threads) {
-  const VoxelsBySegment voxels = SortBySegment(segment_of_voxel, components.components.size());
+  const std::size_t num_ids = components.components.size() + 1;
+  const VoxelGroups voxels = GroupVoxels(segment_of_voxel, num_ids, num_threads);
+  const std::vector<std::size_t> num_points = CountPoints(segment_of_point, num_ids, num_threads);
   std::vector<Segment> segments(components.components.size());
   ParallelFor(segments.size(), 1, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Component& component = components.components[i];
       Segment& segment = segments[i];
       segment.id = static_cast<SegmentId>(i + 1);
-      const std::vector<Eigen::Vector3d> points = PointsOf(grid, voxels, segment.id);
+      segment.num_points = num_points[segment.id];
+      const std::vector<Eigen::Vector3d> points = PointsOf(grid, voxels.Of(segment.id));
       for (const Eigen::Vector3d& point : points) segment.centroid += point;
       segment.centroid /= static_cast<double>(std::max<std::size_t>(points.size(), 1));
       segment.box = FitOrientedBox(points);
@@ -116,9 +128,6 @@ std::vector<Segment> Summarise(const VoxelGrid& grid,
       segment.is_structural = component.is_structural;
     }
   });
-  for (const SegmentId id : segment_of_point) {
-    if (id != 0) ++segments[id - 1].num_points;
-  }
   LinkNeighbours(graph, components, segments);
   return segments;
 }

@@ -20,15 +20,16 @@ std::vector<Plane> ToCloudFrame(const std::vector<Plane>& planes,
                                 const std::vector<std::uint32_t>& plane_labels,
                                 const Eigen::Vector3d& origin);
 
-std::vector<SegmentId> SegmentOfVoxels(const Supervoxels& supervoxels,
-                                       const Components& components);
+LargeVector<SegmentId> SegmentOfVoxels(const Supervoxels& supervoxels,
+                                       const Components& components,
+                                       int num_threads);
 
 // `planes` as from ToCloudFrame.
 std::vector<Segment> Summarise(const VoxelGrid& grid,
                                const PatchGraph& graph,
                                const Components& components,
                                const std::vector<Plane>& planes,
-                               const std::vector<SegmentId>& segment_of_voxel,
+                               const LargeVector<SegmentId>& segment_of_voxel,
                                const std::vector<SegmentId>& segment_of_point,
                                int num_threads);
 

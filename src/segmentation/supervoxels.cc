@@ -4,22 +4,27 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
 
+#include "semslam/base/large_vector.h"
 #include "semslam/base/parallel.h"
 
 #include "segmentation/disjoint_sets.h"
 #include "segmentation/lanes.h"
 #include "segmentation/seed_cells.h"
+#include "segmentation/voxel_groups.h"
 
 namespace semslam {
 namespace {
 
-constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kGrain = 8192;      // Voxels.
+constexpr std::size_t kPatchGrain = 256;  // Patches or seed cells.
 
 // What a patch is to the voxels around it.
 struct Centre {
@@ -78,31 +83,27 @@ class PatchDistance {
 // Per occupied seed cell the voxel nearest to the mean of the cell's voxels.
 std::vector<Centre> PlaceSeeds(const VoxelGrid& grid,
                                const std::vector<Eigen::Vector3f>& normals,
-                               const SeedCells& cells) {
-  struct Cell {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    float count = 0;
-    std::uint32_t nearest = 0;
-    float distance = std::numeric_limits<float>::max();
-  };
-  std::vector<Cell> found(cells.num_cells());
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    Cell& cell = found[cells.cell_of_voxel()[voxel]];
-    cell.sum += grid.centroids[voxel];
-    cell.count += 1;
-  }
-  for (Cell& cell : found) cell.sum /= cell.count;
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    Cell& cell = found[cells.cell_of_voxel()[voxel]];
-    const float distance = (grid.centroids[voxel] - cell.sum).squaredNorm();
-    if (distance >= cell.distance) continue;
-    cell.distance = distance;
-    cell.nearest = static_cast<std::uint32_t>(voxel);
-  }
-  std::vector<Centre> seeds;
-  for (const Cell& cell : found) {
-    seeds.push_back({grid.centroids[cell.nearest], normals[cell.nearest]});
-  }
+                               const SeedCells& cells,
+                               int num_threads) {
+  const VoxelGroups voxels = GroupVoxels(cells.cell_of_voxel(), cells.num_cells(), num_threads);
+  std::vector<Centre> seeds(cells.num_cells());
+  ParallelFor(seeds.size(), kPatchGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell) {
+      const std::span<const std::uint32_t> members = voxels.Of(cell);
+      Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+      for (const std::uint32_t voxel : members) mean += grid.centroids[voxel];
+      mean /= static_cast<float>(members.size());
+      std::uint32_t nearest = 0;
+      float least = std::numeric_limits<float>::max();
+      for (const std::uint32_t voxel : members) {
+        const float distance = (grid.centroids[voxel] - mean).squaredNorm();
+        if (distance >= least) continue;
+        least = distance;
+        nearest = voxel;
+      }
+      seeds[cell] = {grid.centroids[nearest], normals[nearest]};
+    }
+  });
   return seeds;
 }
 
@@ -157,7 +158,7 @@ std::uint32_t NearestOf(std::span<const CentreGroup> groups,
 }
 
 // The nearest of the centres around each voxel.
-std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
+LargeVector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
                                         const std::vector<Eigen::Vector3f>& normals,
                                         const std::vector<Centre>& centres,
                                         const SeedCells& cells,
@@ -166,12 +167,12 @@ std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
   std::vector<Eigen::Vector3f> positions;
   positions.reserve(centres.size());
   for (const Centre& centre : centres) positions.push_back(centre.position);
-  const SeedCells::Lists near = cells.FindNear(positions);
   std::vector<std::vector<CentreGroup>> groups(cells.num_cells());
-  for (std::uint32_t cell = 0; cell < groups.size(); ++cell) {
-    groups[cell] = GroupCentres(near.Of(cell), centres);
-  }
-  std::vector<std::uint32_t> nearest(grid.size());
+  cells.VisitNear(positions, num_threads,
+                  [&](std::uint32_t cell, std::span<const std::uint32_t> near) {
+                    groups[cell] = GroupCentres(near, centres);
+                  });
+  LargeVector<std::uint32_t> nearest(grid.size());
   ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
       nearest[voxel] = NearestOf(groups[cells.cell_of_voxel()[voxel]], distance_to,
@@ -181,81 +182,126 @@ std::vector<std::uint32_t> AssignVoxels(const VoxelGrid& grid,
   return nearest;
 }
 
+// Two adjacent voxels.
+using Contact = std::pair<std::uint32_t, std::uint32_t>;
+
+// Joins the voxels from `first` to `last` with their lower neighbours of the same label. Returns
+// the contacts with such before `first`.
+std::vector<Contact> JoinWithin(const VoxelGrid& grid,
+                                const LargeVector<std::uint32_t>& labels,
+                                std::uint32_t first,
+                                std::uint32_t last,
+                                DisjointSets& sets) {
+  constexpr int kLeft = VoxelGrid::NeighbourBit(-1, 0, 0);
+  // Of the lower neighbours those that are not neighbours of the left one too.
+  constexpr std::uint32_t kBesidesLeft =
+      1U << VoxelGrid::NeighbourBit(1, -1, -1) | 1U << VoxelGrid::NeighbourBit(1, 0, -1) |
+      1U << VoxelGrid::NeighbourBit(1, 1, -1) | 1U << VoxelGrid::NeighbourBit(1, -1, 0);
+  std::vector<Contact> seam;
+  for (std::uint32_t voxel = first; voxel < last; ++voxel) {
+    const std::uint32_t label = labels[voxel];
+    std::uint32_t piece = voxel;
+    const auto join = [&](std::uint32_t other) {
+      if (labels[other] != label) return;
+      if (other < first) {
+        seam.emplace_back(voxel, other);
+      } else if (!sets.IsKnownToBeOf(other, piece)) {
+        const std::uint32_t of_other = sets.Find(other);
+        if (of_other != piece) piece = sets.JoinRepresentatives(piece, of_other);
+      }
+    };
+    std::uint32_t bits = grid.neighbour_bits[voxel];
+    if (voxel > first && (bits >> kLeft & 1) != 0 && labels[voxel - 1] == label) {
+      join(voxel - 1);
+      for (bits &= kBesidesLeft; bits != 0; bits &= bits - 1) {
+        join(grid.NeighbourAt(voxel, std::countr_zero(bits)));
+      }
+    } else {
+      for (const std::uint32_t other : grid.LowerNeighboursOf(voxel)) join(other);
+    }
+  }
+  return seam;
+}
+
 // The connected pieces of equal labels; of each voxel the first voxel of its piece.
-std::vector<std::uint32_t> FindPieces(const VoxelGrid& grid,
-                                      const std::vector<std::uint32_t>& labels,
+LargeVector<std::uint32_t> FindPieces(const VoxelGrid& grid,
+                                      const LargeVector<std::uint32_t>& labels,
                                       int num_threads) {
   constexpr std::size_t kNumChunks = 8;
   DisjointSets sets(grid.size());
   // Within chunks side by side; then what connects them.
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> seams(kNumChunks);
+  std::vector<std::vector<Contact>> seams(kNumChunks);
   ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      const std::size_t first = grid.size() * chunk / kNumChunks;
-      const std::size_t last = grid.size() * (chunk + 1) / kNumChunks;
-      for (auto voxel = static_cast<std::uint32_t>(first); voxel < last; ++voxel) {
-        const std::uint32_t label = labels[voxel];
-        std::uint32_t representative = voxel;
-        for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
-          if (other >= voxel) break;  // They ascend.
-          if (labels[other] != label) continue;
-          if (sets.IsKnownToBeOf(other, representative)) continue;
-          if (other < first) {
-            seams[chunk].emplace_back(voxel, other);
-            continue;
-          }
-          const std::uint32_t of_other = sets.Find(other);
-          if (of_other == representative) continue;
-          representative = sets.JoinRepresentatives(representative, of_other);
-        }
-      }
+      seams[chunk] =
+          JoinWithin(grid, labels, static_cast<std::uint32_t>(grid.size() * chunk / kNumChunks),
+                     static_cast<std::uint32_t>(grid.size() * (chunk + 1) / kNumChunks), sets);
     }
   });
-  for (const auto& chunk : seams) {
-    for (const auto& [voxel, other] : chunk) sets.Join(voxel, other);
+  for (const std::vector<Contact>& seam : seams) {
+    for (const auto& [voxel, other] : seam) sets.Join(voxel, other);
   }
-  return std::move(sets).Representatives();
+  LargeVector<std::uint32_t> pieces(grid.size());
+  ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last; ++voxel) {
+      pieces[voxel] = sets.Representative(static_cast<std::uint32_t>(voxel));
+    }
+  });
+  return pieces;
+}
+
+// How many voxels each piece has, by its first voxel; for others zero.
+LargeVector<std::uint32_t> CountVoxels(const LargeVector<std::uint32_t>& pieces, int num_threads) {
+  LargeVector<std::uint32_t> counts(pieces.size(), 0);
+  ParallelFor(pieces.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last;) {
+      const std::uint32_t piece = pieces[voxel];
+      std::uint32_t count = 0;  // Of voxels in a row: a piece is shared with other threads.
+      for (; voxel < last && pieces[voxel] == piece; ++voxel) ++count;
+      std::atomic_ref(counts[piece]).fetch_add(count, std::memory_order_relaxed);
+    }
+  });
+  return counts;
 }
 
 // Numbers the pieces that are large enough to be a patch, in the order of their first voxels.
-Supervoxels NumberPieces(const std::vector<std::uint32_t>& pieces, std::size_t min_voxels) {
-  std::vector<std::uint32_t> sizes(pieces.size(), 0);
-  for (const std::uint32_t piece : pieces) ++sizes[piece];
+Supervoxels NumberPieces(const LargeVector<std::uint32_t>& pieces,
+                         std::size_t min_voxels,
+                         int num_threads) {
+  LargeVector<std::uint32_t> numbers = CountVoxels(pieces, num_threads);
   Supervoxels result;
-  result.patch_of_voxel.resize(pieces.size());
-  for (std::size_t voxel = 0; voxel < pieces.size(); ++voxel) {
-    const std::uint32_t piece = pieces[voxel];
-    std::uint32_t& patch = result.patch_of_voxel[voxel];
-    if (sizes[piece] < min_voxels) {
-      patch = kNoPatch;
-    } else {
-      patch = piece == voxel ? result.num_patches++ : result.patch_of_voxel[piece];
-    }
+  for (std::uint32_t& number : numbers) {
+    if (number != 0) number = number < min_voxels ? kNoPatch : result.num_patches++;
   }
+  result.patch_of_voxel.resize(pieces.size());
+  ParallelFor(pieces.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t voxel = first; voxel < last; ++voxel) {
+      result.patch_of_voxel[voxel] = numbers[pieces[voxel]];
+    }
+  });
   return result;
 }
 
 std::vector<Centre> CentresOf(const VoxelGrid& grid,
                               const std::vector<Eigen::Vector3f>& normals,
-                              const Supervoxels& supervoxels) {
-  struct Sum {
-    double count = 0;
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  };
-  std::vector<Sum> sums(supervoxels.num_patches);
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    if (supervoxels.patch_of_voxel[voxel] == kNoPatch) continue;
-    Sum& sum = sums[supervoxels.patch_of_voxel[voxel]];
-    sum.count += 1;
-    sum.position += grid.centroids[voxel].cast<double>();
-    sum.normal += normals[voxel];
-  }
-  std::vector<Centre> centres;
-  for (const Sum& sum : sums) {
-    // Leaves a zero normal as it is.
-    centres.push_back({(sum.position / sum.count).cast<float>(), sum.normal.normalized()});
-  }
+                              const Supervoxels& supervoxels,
+                              int num_threads) {
+  const VoxelGroups voxels =
+      GroupVoxels(supervoxels.patch_of_voxel, supervoxels.num_patches, num_threads);
+  std::vector<Centre> centres(supervoxels.num_patches);
+  ParallelFor(centres.size(), kPatchGrain, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t patch = first; patch < last; ++patch) {
+      Eigen::Vector3d position = Eigen::Vector3d::Zero();
+      Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+      for (const std::uint32_t voxel : voxels.Of(patch)) {
+        position += grid.centroids[voxel].cast<double>();
+        normal += normals[voxel];
+      }
+      const auto count = static_cast<double>(voxels.Of(patch).size());
+      // Leaves a zero normal as it is.
+      centres[patch] = {(position / count).cast<float>(), normal.normalized()};
+    }
+  });
   return centres;
 }
 
@@ -297,15 +343,15 @@ Supervoxels GrowSupervoxels(const VoxelGrid& grid,
                             const std::vector<Eigen::Vector3f>& normals,
                             const SupervoxelOptions& options,
                             int num_threads) {
-  const SeedCells cells(grid, options.seed_spacing);
+  const SeedCells cells(grid, options.seed_spacing, num_threads);
   const PatchDistance distance_to(options);
-  std::vector<Centre> centres = PlaceSeeds(grid, normals, cells);
+  std::vector<Centre> centres = PlaceSeeds(grid, normals, cells, num_threads);
   Supervoxels result;
   for (int pass = 0; pass < options.num_passes; ++pass) {
-    const std::vector<std::uint32_t> labels =
+    const LargeVector<std::uint32_t> labels =
         AssignVoxels(grid, normals, centres, cells, distance_to, num_threads);
-    result = NumberPieces(FindPieces(grid, labels, num_threads), options.min_voxels);
-    centres = CentresOf(grid, normals, result);
+    result = NumberPieces(FindPieces(grid, labels, num_threads), options.min_voxels, num_threads);
+    centres = CentresOf(grid, normals, result, num_threads);
   }
   JoinCrumbs(grid, normals, centres, distance_to, result);
   return result;

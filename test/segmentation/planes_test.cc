@@ -62,8 +62,8 @@ TEST(PlaneScores, SupportIsSummedAsPublished) {
   const std::vector<Plane> planes = {{Eigen::Vector3d::UnitZ(), 0}};
   const PlaneHypothesisOptions options;
   const double expected = 0.5 + 0.25 * std::exp(-1.0);
-  EXPECT_NEAR(SoftSupports(patches, planes, options, 1)[0], expected, 1e-6);
-  const SelectionEnergy energy = MakeSelectionEnergy(patches, planes, options);
+  EXPECT_NEAR(SoftSupports(PatchTable(patches), planes, options, 1)[0], expected, 1e-6);
+  const SelectionEnergy energy = MakeSelectionEnergy(patches, planes, options, 2);
   EXPECT_NEAR(energy.unary[0], -expected / 0.1, 1e-9);
 }
 
@@ -88,7 +88,8 @@ TEST(PlaneScores, SupportsOfManyPatchesAreTheirWeightedAreasSummed) {
       expected += patch.area * std::exp(-cost / (2 * options.tolerance));
     }
     // Weights below exp(-10) are left out.
-    EXPECT_NEAR(SoftSupports(patches, planes, options, 1)[0], expected, 1e-3 * expected + 1e-4);
+    EXPECT_NEAR(SoftSupports(PatchTable(patches), planes, options, 1)[0], expected,
+                1e-3 * expected + 1e-4);
   }
 }
 
@@ -97,7 +98,7 @@ TEST(PlaneScores, ParallelAndSquarePlanesAgreeOthersDisagree) {
                                      {Eigen::Vector3d::UnitX(), 0},
                                      {-Eigen::Vector3d::UnitZ(), 3},
                                      {Eigen::Vector3d(1, 0, 1).normalized(), 0}};
-  const SelectionEnergy energy = MakeSelectionEnergy({}, planes, PlaneHypothesisOptions());
+  const SelectionEnergy energy = MakeSelectionEnergy({}, planes, PlaneHypothesisOptions(), 1);
   EXPECT_NEAR(energy.pairwise(0, 1), 0, 1e-12);
   EXPECT_NEAR(energy.pairwise(0, 2), 0, 1e-12);
   const double q = 1 - std::sqrt(0.5);
@@ -109,7 +110,7 @@ TEST(PlaneScores, TheSamePlaneTwiceIsWorseThanOnce) {
   std::vector<Patch> patches;
   AddFloor({Eigen::Vector3d::UnitZ(), 0}, 5, patches);
   const std::vector<Plane> planes = {{Eigen::Vector3d::UnitZ(), 0}, {Eigen::Vector3d::UnitZ(), 0}};
-  const SelectionEnergy energy = MakeSelectionEnergy(patches, planes, PlaneHypothesisOptions());
+  const SelectionEnergy energy = MakeSelectionEnergy(patches, planes, PlaneHypothesisOptions(), 1);
   EXPECT_LT(EnergyOf(energy, {true, false}), EnergyOf(energy, {true, true}));
 }
 
