@@ -23,27 +23,64 @@ double AngleTerm(const Plane& a, const Plane& b) {
   return 0.5 * (1.0 - std::exp(-q / 0.25));
 }
 
-// Of the planes near one patch: their indices and what it gives them.
-using PlaneWeights = std::vector<std::pair<Eigen::Index, double>>;
+// What a patch gives to a plane near it.
+struct PlaneWeight {
+  Eigen::Index plane = 0;
+  double weight = 0;
+};
 
-std::vector<PlaneWeights> WeighPlanes(const std::vector<Patch>& patches,
-                                      std::span<const Plane> planes,
-                                      const PlaneHypothesisOptions& options,
-                                      int num_threads) {
-  constexpr std::size_t kGrain = 256;
+// Of the planes near each of some patches, in order.
+struct PlaneWeights {
+  std::vector<PlaneWeight> weights;
+  std::vector<std::size_t> begin = {0};  // Of each patch's, and of the end.
+
+  std::span<const PlaneWeight> Of(std::size_t patch) const {
+    return std::span(weights).subspan(begin[patch], begin[patch + 1] - begin[patch]);
+  }
+};
+
+PlaneWeights WeighPlanes(std::span<const Patch> patches,
+                         std::span<const Plane> planes,
+                         const PlaneHypothesisOptions& options) {
   const double unit = 1.0 / (kSupportScale * options.min_area);
-  std::vector<PlaneWeights> weights(patches.size());
-  ParallelFor(patches.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Patch& patch = patches[i];
-      for (std::size_t m = 0; m < planes.size(); ++m) {
-        const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
-        if (cost > 20 * options.tolerance) continue;
-        weights[i].emplace_back(m, unit * patch.area * SoftWeight(cost, options.tolerance));
-      }
+  PlaneWeights result;
+  for (const Patch& patch : patches) {
+    for (std::size_t m = 0; m < planes.size(); ++m) {
+      const double cost = PatchCost(patch, planes[m], options.min_normal_cosine);
+      if (cost > 20 * options.tolerance) continue;
+      result.weights.push_back(
+          {static_cast<Eigen::Index>(m), unit * patch.area * SoftWeight(cost, options.tolerance)});
+    }
+    result.begin.push_back(result.weights.size());
+  }
+  return result;
+}
+
+// The same side by side, for chunks of the patches.
+std::vector<PlaneWeights> WeighInChunks(std::span<const Patch> patches,
+                                        std::span<const Plane> planes,
+                                        const PlaneHypothesisOptions& options,
+                                        int num_threads) {
+  constexpr std::size_t kChunkSize = 256;
+  std::vector<PlaneWeights> chunks((patches.size() + kChunkSize - 1) / kChunkSize);
+  ParallelFor(chunks.size(), 1, num_threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t chunk = first; chunk < last; ++chunk) {
+      const auto rest = patches.subspan(chunk * kChunkSize);
+      chunks[chunk] = WeighPlanes(rest.first(std::min(rest.size(), kChunkSize)), planes, options);
     }
   });
-  return weights;
+  return chunks;
+}
+
+// Adds what one patch gives to the planes, and what it gives to two of them at once.
+void AddWeights(std::span<const PlaneWeight> weights, SelectionEnergy& energy) {
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const auto [m, weight_m] = weights[i];
+    energy.unary[m] -= weight_m;
+    for (const auto& [l, weight_l] : weights.subspan(i + 1)) {
+      energy.pairwise(m, l) += 0.5 * kOverlapFactor * std::min(weight_m, weight_l);
+    }
+  }
 }
 
 }  // namespace
@@ -67,15 +104,8 @@ SelectionEnergy MakeSelectionEnergy(const std::vector<Patch>& patches,
                                     int num_threads) {
   const auto size = static_cast<Eigen::Index>(planes.size());
   SelectionEnergy energy{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
-  for (const PlaneWeights& weights : WeighPlanes(patches, planes, options, num_threads)) {
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      const auto [m, weight_m] = weights[i];
-      energy.unary[m] -= weight_m;
-      for (std::size_t j = i + 1; j < weights.size(); ++j) {
-        const auto [l, weight_l] = weights[j];
-        energy.pairwise(m, l) += 0.5 * kOverlapFactor * std::min(weight_m, weight_l);
-      }
-    }
+  for (const PlaneWeights& chunk : WeighInChunks(patches, planes, options, num_threads)) {
+    for (std::size_t i = 0; i + 1 < chunk.begin.size(); ++i) AddWeights(chunk.Of(i), energy);
   }
   for (Eigen::Index m = 0; m < size; ++m) {
     for (Eigen::Index l = m + 1; l < size; ++l) {

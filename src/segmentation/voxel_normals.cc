@@ -257,20 +257,33 @@ class FourMoments {
   std::array<Moments, 4> moments_{};
 };
 
+// The voxels of known side that touch others; ascending.
+std::vector<std::uint32_t> FindKnownBeside(const VoxelGrid& grid,
+                                           const std::vector<std::uint32_t>& unknown) {
+  std::vector<std::uint32_t> beside;
+  for (const std::uint32_t voxel : unknown) {
+    for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
+      if (!grid.views[other].isZero(0)) beside.push_back(other);
+    }
+  }
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  return beside;
+}
+
 // Turns normals of unknown side like their neighbours', breadth first from those that are known,
 // then from the first of each remaining surface.
 void OrientTheRest(const VoxelGrid& grid, std::vector<Eigen::Vector3f>& normals) {
-  const bool is_complete = std::none_of(grid.views.begin(), grid.views.end(),
-                                        [](const Eigen::Vector3f& view) { return view.isZero(0); });
-  if (is_complete) return;
-  std::vector<bool> is_known(grid.size());
-  std::vector<std::uint32_t> queue;
-  for (std::size_t voxel = 0; voxel < grid.size(); ++voxel) {
-    is_known[voxel] = !grid.views[voxel].isZero(0);
-    if (is_known[voxel]) queue.push_back(static_cast<std::uint32_t>(voxel));
+  std::vector<std::uint32_t> unknown;
+  for (std::uint32_t voxel = 0; voxel < grid.size(); ++voxel) {
+    if (grid.views[voxel].isZero(0)) unknown.push_back(voxel);
   }
+  if (unknown.empty()) return;
+  std::vector<bool> is_known(grid.size(), true);
+  for (const std::uint32_t voxel : unknown) is_known[voxel] = false;
+  std::vector<std::uint32_t> queue = FindKnownBeside(grid, unknown);
   std::size_t next = 0;
-  for (std::size_t start = 0; start <= grid.size(); ++start) {
+  const auto turn_around = [&] {
     while (next < queue.size()) {
       const std::uint32_t voxel = queue[next++];
       for (const std::uint32_t other : grid.NeighboursOf(voxel)) {
@@ -280,10 +293,13 @@ void OrientTheRest(const VoxelGrid& grid, std::vector<Eigen::Vector3f>& normals)
         queue.push_back(other);
       }
     }
-    if (start < grid.size() && !is_known[start]) {
-      is_known[start] = true;
-      queue.push_back(static_cast<std::uint32_t>(start));
-    }
+  };
+  turn_around();
+  for (const std::uint32_t start : unknown) {
+    if (is_known[start]) continue;
+    is_known[start] = true;
+    queue.push_back(start);
+    turn_around();
   }
 }
 
