@@ -5,7 +5,9 @@
 // LCCP and region growing, on clouds of several sizes. The clouds are made: the true surface of a
 // rendered room or desk, roughened like a map, cut to size about its middle, and repeated where it
 // is too small. Each measurement runs in a process of its own, so that its peak memory is its own.
-//   benchmark_segmentation [room | desk] [millions of points ...]
+//   benchmark_segmentation [room | desk] [--steps] [millions of points ...]
+//     --steps   instead, the time of each step of ours, the least of seven runs, on one thread and
+//               on all cores
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -143,14 +145,31 @@ double PeakBytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+// What `function` returns, numbers without pointers, from a process of its own. If that crashes:
+// zeros.
+template <typename Function>
+auto RunAside(const Function& function) {
+  ::malloc_trim(0);  // What is free but kept would hide what the method takes.
+  decltype(function()) result{};
+  std::array<int, 2> pipe{};
+  if (::pipe(pipe.data()) != 0) return result;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    result = function();
+    const bool is_written = ::write(pipe[1], &result, sizeof(result)) == ssize_t{sizeof(result)};
+    ::_exit(is_written ? EXIT_SUCCESS : EXIT_FAILURE);
+  }
+  ::close(pipe[1]);
+  if (::read(pipe[0], &result, sizeof(result)) != ssize_t{sizeof(result)}) result = {};
+  ::close(pipe[0]);
+  ::waitpid(child, nullptr, 0);
+  return result;
+}
+
 // Runs `segment`, which gives the number of segments, in a process of its own.
 template <typename Function>
 Measurement Measure(const Function& segment) {
-  ::malloc_trim(0);  // What is free but kept would hide what the method takes.
-  std::array<int, 2> pipe{};
-  if (::pipe(pipe.data()) != 0) return {};
-  const pid_t child = ::fork();
-  if (child == 0) {
+  return RunAside([&] {
     Measurement measurement;
     const double before = ResidentBytes();
     const semslam::Stopwatch watch;
@@ -158,18 +177,8 @@ Measurement Measure(const Function& segment) {
     measurement.cpu_milliseconds = CpuMilliseconds();
     measurement.milliseconds = watch.Milliseconds();
     measurement.peak_bytes = PeakBytes() - before;
-    const bool is_written =
-        ::write(pipe[1], &measurement, sizeof(measurement)) == ssize_t{sizeof(measurement)};
-    ::_exit(is_written ? EXIT_SUCCESS : EXIT_FAILURE);
-  }
-  Measurement measurement;
-  ::close(pipe[1]);
-  if (::read(pipe[0], &measurement, sizeof(measurement)) != ssize_t{sizeof(measurement)}) {
-    measurement = {};  // It crashed: zeros in the table.
-  }
-  ::close(pipe[0]);
-  ::waitpid(child, nullptr, 0);
-  return measurement;
+    return measurement;
+  });
 }
 
 void PrintRow(const char* method, std::size_t num_points, const Measurement& m, double ours) {
@@ -194,6 +203,60 @@ void Compare(const Cloud& cloud) {
            Measure([&] { return SegmentWithRegionGrowing(view).num_segments; }), ours.milliseconds);
 }
 
+using semslam::SegmentationTimes;
+
+struct Step {
+  const char* name;
+  double SegmentationTimes::*time;
+};
+constexpr std::array<Step, 10> kSteps = {{{"voxels", &SegmentationTimes::voxels},
+                                          {"normals", &SegmentationTimes::normals},
+                                          {"supervoxels", &SegmentationTimes::supervoxels},
+                                          {"patches", &SegmentationTimes::patches},
+                                          {"planes", &SegmentationTimes::planes},
+                                          {"selection", &SegmentationTimes::selection},
+                                          {"assignment", &SegmentationTimes::assignment},
+                                          {"relief", &SegmentationTimes::relief},
+                                          {"components", &SegmentationTimes::components},
+                                          {"summary", &SegmentationTimes::summary}}};
+
+// The least of several runs, step by step.
+SegmentationTimes LeastTimes(const Cloud& cloud, int num_threads) {
+  constexpr int kNumRuns = 7;
+  SegmentationTimes least;
+  for (int run = 0; run < kNumRuns; ++run) {
+    const SegmentationTimes times = RunAside([&] {
+      semslam::Segmenter::Options options;
+      options.num_threads = num_threads;
+      return semslam::Segmenter(options).Segment({cloud.points, cloud.normals}).times;
+    });
+    for (const Step& step : kSteps) {
+      const double time = times.*step.time;
+      least.*step.time = run == 0 ? time : std::min(least.*step.time, time);
+    }
+  }
+  return least;
+}
+
+void CompareSteps(const Cloud& cloud) {
+  const SegmentationTimes serial = LeastTimes(cloud, 1);
+  const SegmentationTimes parallel = LeastTimes(cloud, 0);
+  std::printf("%zu points\n%-12s %14s %14s\n", cloud.points.size(), "step", "ms, one thread",
+              "ms, all cores");
+  for (const Step& step : kSteps) {
+    std::printf("%-12s %14.1f %14.1f\n", step.name, serial.*step.time, parallel.*step.time);
+  }
+  std::printf("%-12s %14.1f %14.1f\n", "all", serial.Total(), parallel.Total());
+  std::fflush(stdout);
+}
+
+void PrintHeader(const std::string& scene, std::size_t num_points, bool only_steps) {
+  std::printf("a %s of %zu points\n", scene.c_str(), num_points);
+  if (only_steps) return;
+  std::printf("%9s  %-15s %9s %9s %9s %12s %9s %11s\n", "points", "method", "ms", "cpu ms",
+              "us/point", "bytes/point", "segments", "to ours");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -203,23 +266,25 @@ int main(int argc, char** argv) {
     scene = arguments[0];
     arguments.erase(arguments.begin());
   }
+  const bool only_steps = !arguments.empty() && arguments[0] == "--steps";
+  if (only_steps) arguments.erase(arguments.begin());
   if (arguments.empty()) arguments = {"0.1", "0.3", "0.952563", "3"};
   const Cloud whole = MakeSceneAside(scene);
   if (whole.points.empty()) {
     std::cerr << "benchmark_segmentation: the scene could not be made\n";
     return EXIT_FAILURE;
   }
-  std::printf("a %s of %zu points\n%9s  %-15s %9s %9s %9s %12s %9s %11s\n", scene.c_str(),
-              whole.points.size(), "points", "method", "ms", "cpu ms", "us/point", "bytes/point",
-              "segments", "to ours");
+  PrintHeader(scene, whole.points.size(), only_steps);
   for (const std::string& argument : arguments) {
     const double millions = std::atof(argument.c_str());
     if (!(millions > 0)) {
-      std::cerr << "benchmark_segmentation: expected room or desk, then millions of points, found "
-                << argument << '\n';
+      std::cerr
+          << "benchmark_segmentation: expected room or desk, --steps, then millions of points, "
+          << "found " << argument << '\n';
       return EXIT_FAILURE;
     }
-    Compare(CutToSize(whole, static_cast<std::size_t>(1e6 * millions)));
+    const Cloud cloud = CutToSize(whole, static_cast<std::size_t>(1e6 * millions));
+    only_steps ? CompareSteps(cloud) : Compare(cloud);
   }
   return EXIT_SUCCESS;
 }
