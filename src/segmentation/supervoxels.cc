@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -130,13 +129,29 @@ std::vector<CentreGroup> GroupCentres(std::span<const std::uint32_t> indices,
   return groups;
 }
 
+// The index of the lane with the least distance, of equal ones the least index.
+std::uint32_t LeastLane(__m128 distances, __m128i indices) {
+  __m128 least =
+      _mm_min_ps(distances, _mm_shuffle_ps(distances, distances, _MM_SHUFFLE(1, 0, 3, 2)));
+  least = _mm_min_ps(least, _mm_shuffle_ps(least, least, _MM_SHUFFLE(2, 3, 0, 1)));
+  const __m128i is_least = _mm_castps_si128(_mm_cmpeq_ps(distances, least));
+  // The others' indices become larger than any.
+  __m128i rest = _mm_or_si128(_mm_and_si128(is_least, indices),
+                              _mm_srli_epi32(_mm_andnot_si128(is_least, _mm_set1_epi32(-1)), 1));
+  const auto lesser = [](__m128i x, __m128i y) {
+    const __m128i is_less = _mm_cmplt_epi32(x, y);
+    return _mm_or_si128(_mm_and_si128(is_less, x), _mm_andnot_si128(is_less, y));
+  };
+  rest = lesser(rest, _mm_shuffle_epi32(rest, _MM_SHUFFLE(1, 0, 3, 2)));
+  rest = lesser(rest, _mm_shuffle_epi32(rest, _MM_SHUFFLE(2, 3, 0, 1)));
+  return static_cast<std::uint32_t>(_mm_cvtsi128_si32(rest));
+}
+
 // Of equally near centres the first.
 std::uint32_t NearestOf(std::span<const CentreGroup> groups,
                         const PatchDistance& distance_to,
                         const Eigen::Vector3f& position,
                         const Eigen::Vector3f& normal) {
-  alignas(16) std::array<float, 4> least{};
-  alignas(16) std::array<std::uint32_t, 4> indices{};
   __m128 best = _mm_set1_ps(std::numeric_limits<float>::max());
   __m128 best_indices = _mm_castsi128_ps(_mm_set1_epi32(-1));
   for (const CentreGroup& group : groups) {
@@ -146,15 +161,7 @@ std::uint32_t NearestOf(std::span<const CentreGroup> groups,
     const auto* words = reinterpret_cast<const float*>(group.indices.data());
     best_indices = Choose(is_less, _mm_load_ps(words), best_indices);
   }
-  _mm_store_ps(least.data(), best);
-  _mm_store_si128(reinterpret_cast<__m128i*>(indices.data()), _mm_castps_si128(best_indices));
-  std::size_t nearest = 0;
-  for (std::size_t lane = 1; lane < 4; ++lane) {
-    const bool is_nearer = least[lane] < least[nearest] ||
-                           (least[lane] == least[nearest] && indices[lane] < indices[nearest]);
-    if (is_nearer) nearest = lane;
-  }
-  return indices[nearest];
+  return LeastLane(best, _mm_castps_si128(best_indices));
 }
 
 // The nearest of the centres around each voxel.
@@ -223,60 +230,54 @@ std::vector<Contact> JoinWithin(const VoxelGrid& grid,
   return seam;
 }
 
-// The connected pieces of equal labels; of each voxel the first voxel of its piece.
-LargeVector<std::uint32_t> FindPieces(const VoxelGrid& grid,
-                                      const LargeVector<std::uint32_t>& labels,
-                                      int num_threads) {
+// The connected pieces of equal labels.
+struct Pieces {
+  DisjointSets sets;
+  LargeVector<std::uint32_t> num_voxels;  // By the first voxel of a piece; of others zero.
+};
+
+Pieces FindPieces(const VoxelGrid& grid,
+                  const LargeVector<std::uint32_t>& labels,
+                  int num_threads) {
   constexpr std::size_t kNumChunks = 8;
-  DisjointSets sets(grid.size());
+  Pieces pieces = {DisjointSets(grid.size()), LargeVector<std::uint32_t>(grid.size(), 0)};
+  DisjointSets& sets = pieces.sets;
+  LargeVector<std::uint32_t>& num_voxels = pieces.num_voxels;
   // Within chunks side by side; then what connects them.
   std::vector<std::vector<Contact>> seams(kNumChunks);
   ParallelFor(kNumChunks, 1, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t chunk = begin; chunk < end; ++chunk) {
-      seams[chunk] =
-          JoinWithin(grid, labels, static_cast<std::uint32_t>(grid.size() * chunk / kNumChunks),
-                     static_cast<std::uint32_t>(grid.size() * (chunk + 1) / kNumChunks), sets);
+      const auto first = static_cast<std::uint32_t>(grid.size() * chunk / kNumChunks);
+      const auto last = static_cast<std::uint32_t>(grid.size() * (chunk + 1) / kNumChunks);
+      seams[chunk] = JoinWithin(grid, labels, first, last, sets);
+      for (std::uint32_t voxel = first; voxel < last; ++voxel) ++num_voxels[sets.Find(voxel)];
     }
   });
   for (const std::vector<Contact>& seam : seams) {
-    for (const auto& [voxel, other] : seam) sets.Join(voxel, other);
-  }
-  LargeVector<std::uint32_t> pieces(grid.size());
-  ParallelFor(grid.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t voxel = first; voxel < last; ++voxel) {
-      pieces[voxel] = sets.Representative(static_cast<std::uint32_t>(voxel));
+    for (const auto& [voxel, other] : seam) {
+      const std::uint32_t a = sets.Find(voxel);
+      const std::uint32_t b = sets.Find(other);
+      if (a == b) continue;
+      const std::uint32_t sum = num_voxels[a] + num_voxels[b];
+      num_voxels[a] = num_voxels[b] = 0;
+      num_voxels[sets.JoinRepresentatives(a, b)] = sum;
     }
-  });
+  }
   return pieces;
 }
 
-// How many voxels each piece has, by its first voxel; for others zero.
-LargeVector<std::uint32_t> CountVoxels(const LargeVector<std::uint32_t>& pieces, int num_threads) {
-  LargeVector<std::uint32_t> counts(pieces.size(), 0);
-  ParallelFor(pieces.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t voxel = first; voxel < last;) {
-      const std::uint32_t piece = pieces[voxel];
-      std::uint32_t count = 0;  // Of voxels in a row: a piece is shared with other threads.
-      for (; voxel < last && pieces[voxel] == piece; ++voxel) ++count;
-      std::atomic_ref(counts[piece]).fetch_add(count, std::memory_order_relaxed);
-    }
-  });
-  return counts;
-}
-
 // Numbers the pieces that are large enough to be a patch, in the order of their first voxels.
-Supervoxels NumberPieces(const LargeVector<std::uint32_t>& pieces,
-                         std::size_t min_voxels,
-                         int num_threads) {
-  LargeVector<std::uint32_t> numbers = CountVoxels(pieces, num_threads);
+Supervoxels NumberPieces(Pieces pieces, std::size_t min_voxels, int num_threads) {
   Supervoxels result;
+  LargeVector<std::uint32_t>& numbers = pieces.num_voxels;
   for (std::uint32_t& number : numbers) {
     if (number != 0) number = number < min_voxels ? kNoPatch : result.num_patches++;
   }
-  result.patch_of_voxel.resize(pieces.size());
-  ParallelFor(pieces.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
+  result.patch_of_voxel.resize(numbers.size());
+  ParallelFor(numbers.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t voxel = first; voxel < last; ++voxel) {
-      result.patch_of_voxel[voxel] = numbers[pieces[voxel]];
+      const std::uint32_t piece = pieces.sets.Representative(static_cast<std::uint32_t>(voxel));
+      result.patch_of_voxel[voxel] = numbers[piece];
     }
   });
   return result;

@@ -44,15 +44,24 @@ class NeighbourWalk {
     }
   }
 
-  // Writes the neighbours, ascending, from `found` on. Voxels must come in ascending order too.
-  // Returns the end, and the bits in `bits`.
+  // Writes the neighbours, ascending, from `found` on, and their bits. Returns the end. Voxels must
+  // come one after the other.
   std::uint32_t* Collect(std::size_t voxel, std::uint32_t* found, std::uint32_t& bits) {
-    bits = 0;
-#pragma GCC unroll 4
-    for (int row = 0; row < kOwnRow; ++row) found = CollectRow(row, voxel, found, bits);
-    found = CollectOwnRow(voxel, found, bits);
-#pragma GCC unroll 4
-    for (int row = kOwnRow + 1; row < kNumRows; ++row) found = CollectRow(row, voxel, found, bits);
+    const bool has_left = voxel > 0 && keys_[voxel - 1] + 1 == keys_[voxel];
+    const std::uint32_t bits_before = bits_;
+    bits_ = 0;
+    if (has_left && bits_before != 0) {
+      for (int row = 0; row < kOwnRow; ++row) found = ShiftRow(row, voxel, bits_before, found);
+      found = CollectOwnRow(voxel, has_left, found);
+      for (int row = kOwnRow + 1; row < kNumRows; ++row) {
+        found = ShiftRow(row, voxel, bits_before, found);
+      }
+    } else {
+      for (int row = 0; row < kOwnRow; ++row) found = CollectRow(row, voxel, found);
+      found = CollectOwnRow(voxel, has_left, found);
+      for (int row = kOwnRow + 1; row < kNumRows; ++row) found = CollectRow(row, voxel, found);
+    }
+    bits = bits_;
     return found;
   }
 
@@ -61,33 +70,52 @@ class NeighbourWalk {
   static constexpr int kOwnRow = 4;
 
   // Almost without branches: nobody could predict them.
-  std::uint32_t* CollectRow(int row, std::size_t voxel, std::uint32_t* found, std::uint32_t& bits) {
+  std::uint32_t* CollectRow(int row, std::size_t voxel, std::uint32_t* found) {
     const std::uint64_t low = keys_[voxel] + offsets_[row];
     std::size_t place = places_[row];
     place += keys_[place] < low ? 1 : 0;
     place += keys_[place] < low ? 1 : 0;
     while (keys_[place] < low) ++place;
-    const auto index = static_cast<int>(place);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(found),
-                     _mm_add_epi32(_mm_set1_epi32(index), _mm_setr_epi32(0, 1, 2, 3)));
+    WriteThree(place, found);
     const std::size_t second = place + (keys_[place] == low ? 1 : 0);
     const std::size_t third = second + (keys_[second] == low + 1 ? 1 : 0);
     const std::size_t end = third + (keys_[third] == low + 2 ? 1 : 0);
-    bits |= static_cast<std::uint32_t>((second - place) + 2 * (third - second) + 4 * (end - third))
-            << (3 * row);
+    bits_ |= static_cast<std::uint32_t>((second - place) + 2 * (third - second) + 4 * (end - third))
+             << (3 * row);
     places_[row] = second;  // The next voxel's row begins farther on.
     return found + (end - place);
   }
 
-  std::uint32_t* CollectOwnRow(std::size_t voxel, std::uint32_t* found, std::uint32_t& bits) const {
-    const bool has_lower = voxel > 0 && keys_[voxel - 1] + 1 == keys_[voxel];
-    const bool has_higher = keys_[voxel + 1] == keys_[voxel] + 1;
+  // The same for a voxel beside the last one: two of the three cells are known.
+  std::uint32_t* ShiftRow(int row,
+                          std::size_t voxel,
+                          std::uint32_t bits_before,
+                          std::uint32_t* found) {
+    const std::size_t place = places_[row];
+    WriteThree(place, found);
+    const std::uint32_t known = bits_before >> (3 * row + 1) & 3;
+    const std::size_t num_known = (known & 1) + (known >> 1);
+    const std::uint64_t last_key = keys_[voxel] + offsets_[row] + 2;
+    const std::uint32_t has_last = keys_[place + num_known] == last_key ? 1 : 0;
+    bits_ |= (known | has_last << 2) << (3 * row);
+    places_[row] = place + (known & 1);
+    return found + num_known + has_last;
+  }
+
+  static void WriteThree(std::size_t first, std::uint32_t* found) {
+    _mm_storeu_si128(
+        reinterpret_cast<__m128i*>(found),
+        _mm_add_epi32(_mm_set1_epi32(static_cast<int>(first)), _mm_setr_epi32(0, 1, 2, 3)));
+  }
+
+  std::uint32_t* CollectOwnRow(std::size_t voxel, bool has_left, std::uint32_t* found) {
+    const bool has_right = keys_[voxel + 1] == keys_[voxel] + 1;
     *found = static_cast<std::uint32_t>(voxel) - 1;
-    found += has_lower ? 1 : 0;
+    found += has_left ? 1 : 0;
     *found = static_cast<std::uint32_t>(voxel) + 1;
-    found += has_higher ? 1 : 0;
-    bits |= (has_lower ? 0b011U : 0b010U) << (3 * kOwnRow);
-    bits |= (has_higher ? 0b100U : 0U) << (3 * kOwnRow);
+    found += has_right ? 1 : 0;
+    bits_ |= (has_left ? 0b011U : 0b010U) << (3 * kOwnRow);
+    bits_ |= (has_right ? 0b100U : 0U) << (3 * kOwnRow);
     return found;
   }
 
@@ -95,6 +123,7 @@ class NeighbourWalk {
   std::size_t num_keys_;
   std::array<std::uint64_t, kNumRows> offsets_{};
   std::array<std::size_t, kNumRows> places_{};
+  std::uint32_t bits_ = 0;  // Of the last voxel; none before the first.
 };
 
 VoxelNeighbours::Chunk FindChunk(std::size_t first, std::size_t last, VoxelGrid& grid) {
