@@ -94,13 +94,13 @@ std::uint16_t VoxelTable::BeginPass() {
 }
 
 std::size_t VoxelTable::memory_bytes() const {
-  return lines_.size() * sizeof(Line) + blocks_.size() * sizeof(Block);
+  return lines_.size() * sizeof(Line) + size_ * sizeof(Voxel);
 }
 
 Voxel& VoxelTable::Append(std::uint64_t key) {
-  if (size_ == blocks_.size() * kBlockSize) blocks_.push_back(std::make_unique<Block>());
-  Voxel& voxel = At(size_++);
-  voxel = Voxel();
+  if (size_ == blocks_.size() * kBlockSize) blocks_.emplace_back().reserve(kBlockSize);
+  ++size_;
+  Voxel& voxel = blocks_.back().emplace_back(Voxel());
   voxel.key_halves = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   return voxel;
 }
@@ -147,6 +147,7 @@ void VoxelTable::Compact() {
   size_ = kept;
   num_empty_ = 0;
   blocks_.resize((size_ + kBlockSize - 1) / kBlockSize);
+  if (!blocks_.empty()) blocks_.back().resize(size_ - (blocks_.size() - 1) * kBlockSize);
   std::size_t num_lines = kMinLines;
   while (num_lines * kMaxOfLine < size_) num_lines *= 2;
   Rehash(num_lines);

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "semslam/base/large_vector.h"
 #include "semslam/dense/voxel_index.h"
 
 namespace semslam {
@@ -74,9 +74,9 @@ class VoxelTable {
     const Place place = PlaceOf(key);
     return lines_[place.line].numbers[place.slot];
   }
-  Voxel& At(std::size_t number) { return (*blocks_[number / kBlockSize])[number % kBlockSize]; }
+  Voxel& At(std::size_t number) { return blocks_[number / kBlockSize][number % kBlockSize]; }
   const Voxel& At(std::size_t number) const {
-    return (*blocks_[number / kBlockSize])[number % kBlockSize];
+    return blocks_[number / kBlockSize][number % kBlockSize];
   }
 
   void Prefetch(std::size_t number) const { __builtin_prefetch(&At(number)); }
@@ -88,18 +88,19 @@ class VoxelTable {
   template <typename Visit>
   void ForEach(Visit&& visit) const {
     for (std::size_t i = 0; i < size_; ++i) {
-      const Voxel& voxel = (*blocks_[i / kBlockSize])[i % kBlockSize];
+      const Voxel& voxel = At(i);
       if (voxel.weight != 0) visit(voxel);
     }
   }
 
  private:
-  static constexpr std::size_t kBlockSize = 4096;
-  using Block = std::array<Voxel, kBlockSize>;
+  // Of several huge pages; what is not used yet takes no memory.
+  static constexpr std::size_t kBlockSize = std::size_t{1} << 17;
+  using Block = LargeVector<Voxel>;
 
   // A cache line of slots, used from the first on.
   static constexpr std::size_t kSlotsOfLine = 12;
-  struct alignas(64) Line {
+  struct alignas(kCacheLine) Line {
     std::array<std::uint32_t, kSlotsOfLine> numbers{};
     std::array<std::uint8_t, kSlotsOfLine> tags{};
     std::uint32_t num_used = 0;
@@ -122,8 +123,8 @@ class VoxelTable {
   void Put(const Place& place, std::uint32_t number);
   void Rehash(std::size_t num_lines);
 
-  std::vector<Line> lines_;  // A power of two of them, or none.
-  std::vector<std::unique_ptr<Block>> blocks_;
+  LargeVector<Line> lines_;    // A power of two of them, or none.
+  std::vector<Block> blocks_;  // Full but for the last.
   std::size_t size_ = 0;
   std::size_t num_empty_ = 0;
   std::uint16_t pass_ = 0;

@@ -11,17 +11,18 @@
 
 namespace semslam {
 
-// Memory for a large array straight from the system, in huge pages where it has them (hundreds of
-// times fewer page faults; far places without a search in the page tables). Small ones come from
-// the heap. Throws std::bad_alloc.
+constexpr std::size_t kCacheLine = 64;  // Bytes.
+
+// Memory for a large array, in huge pages where the system has them (hundreds of times fewer page
+// faults; far places without a search in the page tables). It begins with a cache line. Throws
+// std::bad_alloc.
 void* AllocateLarge(std::size_t num_bytes);
-// `num_bytes` as they were asked for.
-void FreeLarge(void* memory, std::size_t num_bytes) noexcept;
+void FreeLarge(void* memory) noexcept;
 
 template <typename T>
 class LargeAllocator {
  public:
-  static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  static_assert(alignof(T) <= kCacheLine);
   using value_type = T;
 
   LargeAllocator() = default;
@@ -34,7 +35,7 @@ class LargeAllocator {
     }
     return static_cast<T*>(AllocateLarge(count * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t count) noexcept { FreeLarge(memory, count * sizeof(T)); }
+  void deallocate(T* memory, std::size_t /*count*/) noexcept { FreeLarge(memory); }
 
   // Elements that get no value keep none: what is written anyway need not be cleared first.
   template <typename U>
