@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "segmentation/disjoint_sets.h"
+#include "segmentation/floating_parts.h"
 #include "segmentation/surface_growth.h"
 #include "segmentation/thing_parts.h"
 
@@ -206,7 +207,8 @@ bool IsConvex(const Patch& a, const Patch& b, const ComponentOptions& options) {
 
 Components FindComponents(const PatchGraph& graph,
                           const std::vector<std::uint32_t>& plane_labels,
-                          const ComponentOptions& options) {
+                          const ComponentOptions& options,
+                          const PatchPlaces& places) {
   DisjointSets sets(graph.patches.size());
   for (const PatchEdge& edge : graph.edges) {
     if (IsOn(graph, edge, plane_labels, options)) sets.Join(edge.a, edge.b);
@@ -225,6 +227,7 @@ Components FindComponents(const PatchGraph& graph,
       [&](const Patch& a, const Patch& b) { return IsFlush(a, b, options); }, sets);
   JoinAcrossGaps(graph, plane_labels, options, sets, is_structural);
   JoinThingParts(graph, is_structural, options, sets);
+  JoinFloatingParts({graph, plane_labels, is_structural, places}, options, sets);
   return Collect(graph, plane_labels, is_structural, options, sets);
 }
 

@@ -8,6 +8,7 @@
 
 #include "semslam/segmentation/options.h"
 
+#include "segmentation/floating_parts.h"
 #include "segmentation/patches.h"
 
 namespace semslam {
@@ -35,10 +36,11 @@ bool IsConvex(const Patch& a, const Patch& b, const ComponentOptions& options);
 // between patches of none. Then components that are no structural planes are joined where most of
 // their common border is convex, so that the faces of a box come together, and structural planes
 // where most of it is flush, so that a warped floor stays one, and also where they are large pieces
-// of one plane that something hides part of. At last fragments too small to be a thing join the
-// thing they touch most. `plane_labels`: 0 for none.
+// of one plane that something hides part of. At last what is only part of a thing joins it
+// (JoinThingParts, JoinFloatingParts). `plane_labels`: 0 for none.
 Components FindComponents(const PatchGraph& graph,
                           const std::vector<std::uint32_t>& plane_labels,
-                          const ComponentOptions& options);
+                          const ComponentOptions& options,
+                          const PatchPlaces& places = {});
 
 }  // namespace semslam

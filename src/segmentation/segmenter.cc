@@ -103,7 +103,8 @@ Segmentation Segmenter::Segment(const PointCloudView& cloud, const StepObserver&
   result.times.relief = Lap(watch);
 
   begin("segments");
-  const Components components = FindComponents(graph, plane_labels, options_.components);
+  const Components components = FindComponents(graph, plane_labels, options_.components,
+                                               {grid.centroids, supervoxels.patch_of_voxel});
   const LargeVector<SegmentId> segment_of_voxel =
       SegmentOfVoxels(supervoxels, components, num_threads);
   result.segment_of_point = SegmentOfPoints(grid, segment_of_voxel, num_threads);

@@ -3,7 +3,6 @@
 #include "segmentation/thing_parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -14,19 +13,6 @@ namespace {
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
 
 constexpr double kMinCosineOfFace = 0.94;  // Between normals of one face: 20 degrees.
-
-using Contacts = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;
-
-// Pairs of adjacent voxels between components, given by their representatives, the lower first.
-Contacts ContactsBetween(const PatchGraph& graph, DisjointSets& sets) {
-  Contacts contacts;
-  for (const PatchEdge& edge : graph.edges) {
-    const std::uint32_t a = sets.Find(edge.a);
-    const std::uint32_t b = sets.Find(edge.b);
-    if (a != b) contacts[std::minmax(a, b)] += edge.num_contacts;
-  }
-  return contacts;
-}
 
 // What a part shares with the neighbour it shares most with.
 struct Attachment {
@@ -144,87 +130,17 @@ void JoinWhatRestsOnRoundedThings(const PatchGraph& graph,
   }
 }
 
-// How far a patch reaches from its centroid: that of an even disc or strip of the same moments.
-double ReachOf(const Patch& patch, const Eigen::Vector3d& direction) {
-  return 2 * std::sqrt(std::max(0.0, direction.dot(patch.moments.Covariance() * direction)));
-}
-
-double GapBetween(const Patch& a, const Patch& b) {
-  const Eigen::Vector3d offset = b.centroid - a.centroid;
-  const double distance = offset.norm();
-  if (distance == 0) return 0;
-  const Eigen::Vector3d direction = offset / distance;
-  return distance - ReachOf(a, direction) - ReachOf(b, direction);
-}
-
-// In any direction.
-double MaxReachOf(const Patch& patch) {
-  return 2 * std::sqrt(std::max(0.0, patch.moments.Covariance().trace()));
-}
-
-// Finds the thing nearest to a patch without looking at all.
-class ThingFinder {
- public:
-  ThingFinder(const PatchGraph& graph, const std::vector<bool>& is_structural, DisjointSets& sets)
-      : graph_(graph), sets_(sets) {
-    for (std::uint32_t i = 0; i < graph.patches.size(); ++i) {
-      if (is_structural[sets.Find(i)]) continue;
-      patches_.push_back(i);
-      max_reach_ = std::max(max_reach_, MaxReachOf(graph.patches[i]));
-    }
-    std::sort(patches_.begin(), patches_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(XOf(a), a) < std::pair(XOf(b), b);
-    });
-  }
-
-  // The nearest so far, replaced if one is nearer to the patch.
-  struct Nearest {
-    double gap = 0;
-    std::uint32_t thing = kNothing;
-  };
-  void Offer(std::uint32_t patch, Nearest& nearest) {
-    const double limit = nearest.gap + MaxReachOf(graph_.patches[patch]) + max_reach_;
-    auto next = std::lower_bound(patches_.begin(), patches_.end(), XOf(patch) - limit,
-                                 [&](std::uint32_t i, double x) { return XOf(i) < x; });
-    for (; next != patches_.end() && XOf(*next) <= XOf(patch) + limit; ++next) {
-      if (sets_.Find(*next) == sets_.Find(patch)) continue;
-      const double gap = GapBetween(graph_.patches[patch], graph_.patches[*next]);
-      if (gap < nearest.gap) nearest = {gap, sets_.Find(*next)};
-    }
-  }
-
- private:
-  double XOf(std::uint32_t patch) const { return graph_.patches[patch].centroid.x(); }
-
-  const PatchGraph& graph_;
-  DisjointSets& sets_;
-  std::vector<std::uint32_t> patches_;  // Of things, by x.
-  double max_reach_ = 0;
-};
-
-void JoinFloatingFragments(const PatchGraph& graph,
-                           const std::vector<bool>& is_structural,
-                           const ComponentOptions& options,
-                           DisjointSets& sets) {
-  const std::vector<double> areas = AreasOf(graph, sets);
-  std::vector<bool> is_touched(areas.size(), false);
-  for (const auto& [pair, num_contacts] : ContactsBetween(graph, sets)) {
-    is_touched[pair.first] = is_touched[pair.second] = true;
-  }
-  ThingFinder finder(graph, is_structural, sets);
-  std::map<std::uint32_t, ThingFinder::Nearest> nearest_of;
-  for (std::uint32_t i = 0; i < graph.patches.size(); ++i) {
-    const std::uint32_t part = sets.Find(i);
-    if (is_touched[part] || is_structural[part] || areas[part] >= options.min_thing_area) continue;
-    const auto entry = nearest_of.try_emplace(part, ThingFinder::Nearest{options.max_part_gap});
-    finder.Offer(i, entry.first->second);
-  }
-  for (const auto& [part, nearest] : nearest_of) {
-    if (nearest.thing != kNothing) sets.Join(part, nearest.thing);
-  }
-}
-
 }  // namespace
+
+Contacts ContactsBetween(const PatchGraph& graph, DisjointSets& sets) {
+  Contacts contacts;
+  for (const PatchEdge& edge : graph.edges) {
+    const std::uint32_t a = sets.Find(edge.a);
+    const std::uint32_t b = sets.Find(edge.b);
+    if (a != b) contacts[std::minmax(a, b)] += edge.num_contacts;
+  }
+  return contacts;
+}
 
 std::vector<double> AreasOf(const PatchGraph& graph, DisjointSets& sets) {
   std::vector<double> areas(graph.patches.size(), 0.0);
@@ -238,7 +154,6 @@ void JoinThingParts(const PatchGraph& graph,
                     DisjointSets& sets) {
   JoinFragments(graph, is_structural, options.min_thing_area, sets);
   JoinWhatRestsOnRoundedThings(graph, is_structural, options, sets);
-  JoinFloatingFragments(graph, is_structural, options, sets);
 }
 
 }  // namespace semslam

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "semslam/segmentation/options.h"
@@ -15,11 +17,14 @@ namespace semslam {
 // By representative, square metres.
 std::vector<double> AreasOf(const PatchGraph& graph, DisjointSets& sets);
 
-// Joins what is one thing though concave creases or gaps part it:
+// Pairs of adjacent voxels between components, given by their representatives, the lower first.
+using Contacts = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;
+Contacts ContactsBetween(const PatchGraph& graph, DisjointSets& sets);
+
+// Joins what is one thing though concave creases part it:
 // - fragments too small to be a thing with the thing they touch most;
 // - what touches little but a larger rounded thing with that: things stand on flat faces, and the
-//   head of a bear is the bear's;
-// - fragments that touch nothing with what is near: the far inside of a cup, beyond its rim.
+//   head of a bear is the bear's.
 // `is_structural`, by representative: what no thing is joined to.
 void JoinThingParts(const PatchGraph& graph,
                     const std::vector<bool>& is_structural,

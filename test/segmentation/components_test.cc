@@ -186,7 +186,7 @@ TEST(Components, AFragmentThatTouchesNothingJoinsWhatIsNear) {
     return FindComponents(graph, {0, 0}, ComponentOptions()).component_of_patch;
   };
   EXPECT_EQ(components_of(0.02), (std::vector<std::uint32_t>{0, 0}));
-  EXPECT_EQ(components_of(0.03), (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(components_of(0.045), (std::vector<std::uint32_t>{0, 1}));
 }
 
 // Two pieces of a wall, `gap` apart.

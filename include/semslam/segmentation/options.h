@@ -68,7 +68,7 @@ struct ComponentOptions {
   double concavity_tolerance = 0.1745;  // Bend that still counts as flat, radians.
   double step_tolerance = 0.004;        // Step that still counts as smooth, metres.
   double min_thing_area = 0.01;  // Smaller things join the one they touch most, square metres,
-  double max_part_gap = 0.025;   // or, if they touch nothing, one that is this near, metres.
+  double max_part_gap = 0.04;    // or, if they touch nothing, one that is this near, metres.
   // Of the contacts of a thing those with a larger rounded one, to be a part of that.
   double min_resting_share = 0.6;
   std::size_t min_patches = 2;        // Components of fewer patches are unassigned
