@@ -72,6 +72,9 @@ void Check(const PlaneAssignmentOptions& options) {
 void Check(const ReliefOptions& options) {
   RequirePositive("relief.min_height", options.min_height);
   RequireNotNegative("relief.noise_factor", options.noise_factor);
+  RequirePositive("relief.min_rim_height", options.min_rim_height);
+  RequireNotNegative("relief.rim_noise_factor", options.rim_noise_factor);
+  RequireNotNegative("relief.max_rim", options.max_rim);
   RequirePositive("relief.reference_radius", options.reference_radius);
   RequireNotNegative("relief.min_area", options.min_area);
 }

@@ -48,6 +48,7 @@ class ReliefCut {
     FindThresholds();
     FindRaised();
     DropCrumbs();
+    FollowDown();
     TakeFlush();
     CutRaised();
     return {std::move(patch_), num_patches_};
@@ -101,8 +102,10 @@ class ReliefCut {
       const auto middle =
           piece_heights.begin() + static_cast<std::ptrdiff_t>(piece_heights.size() / 2);
       std::nth_element(piece_heights.begin(), middle, piece_heights.end());
-      thresholds_.push_back(
-          std::max(options_.min_height, options_.noise_factor * kSigmaOfMedian * *middle));
+      const double noise = kSigmaOfMedian * *middle;
+      thresholds_.push_back(std::max(options_.min_height, options_.noise_factor * noise));
+      rim_thresholds_.push_back(
+          std::max(options_.min_rim_height, options_.rim_noise_factor * noise));
     }
   }
 
@@ -159,6 +162,40 @@ class ReliefCut {
     }
   }
 
+  // Low, but not as low as the noise, and next to a thing: its rim, its cable. Hysteresis: on their
+  // own they would be taken for the surface. Voxel by voxel, so that it ends near the thing.
+  void FollowDown() {
+    std::vector<std::uint8_t> is_low(grid_.size());
+    ForVoxels([&](std::uint32_t voxel) {
+      is_low[voxel] = IsFlat(voxel) && home_height_[voxel] > rim_thresholds_[HomePiece(voxel)];
+    });
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t voxel = 0; voxel < grid_.size(); ++voxel) {
+      if (is_low[voxel] != 0 && TouchesThing(voxel)) front.push_back(voxel);
+    }
+    for (const std::uint32_t voxel : front) is_raised_[voxel] = 1;
+    for (double rim = grid_.voxel_size; rim < options_.max_rim; rim += grid_.voxel_size) {
+      std::vector<std::uint32_t> next;
+      for (const std::uint32_t voxel : front) {
+        for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
+          if (is_low[other] == 0 || is_raised_[other] != 0) continue;
+          is_raised_[other] = 1;
+          next.push_back(other);
+        }
+      }
+      front = std::move(next);
+    }
+  }
+
+  // Next to what is raised or of no surface.
+  bool TouchesThing(std::uint32_t voxel) const {
+    const auto neighbours = grid_.NeighboursOf(voxel);
+    return std::any_of(neighbours.begin(), neighbours.end(), [&](std::uint32_t other) {
+      return is_raised_[other] != 0 ||
+             (HomePiece(other) == kNoPiece && old_patch_[other] != kNoPatch);
+    });
+  }
+
   // From the flat voxels of each piece over what of other patches is as low as they are.
   void TakeFlush() {
     std::vector<std::uint32_t> queue;
@@ -178,7 +215,8 @@ class ReliefCut {
       const std::uint32_t voxel = queue[i];
       const std::uint32_t piece = pieces_.piece_of_patch[patch_[voxel]];
       for (const std::uint32_t other : grid_.NeighboursOf(voxel)) {
-        if (is_flat[other] != 0) continue;
+        // What rises from this very piece was told from it before.
+        if (is_flat[other] != 0 || HomePiece(other) == piece) continue;
         const std::optional<double> height = HeightOver(piece, other);
         if (!height || std::abs(*height) > 0.5 * thresholds_[piece]) continue;
         is_flat[other] = 1;
@@ -243,7 +281,9 @@ class ReliefCut {
   int num_threads_;
   std::vector<std::uint32_t> home_piece_;
   std::vector<float> home_height_;  // Over the home piece.
-  std::vector<double> thresholds_;  // By piece.
+  // By piece: of what is raised on its own, and of what continues a thing.
+  std::vector<double> thresholds_;
+  std::vector<double> rim_thresholds_;
   // Not of bool: several threads write.
   std::vector<std::uint8_t> is_raised_;
 };

@@ -23,8 +23,9 @@ struct CutPatches {
 // A keyboard is hardly higher than the tolerance of the planes, and a patch is as large as a mouse.
 // But how high a surface rises over the table around it is known much better than either: patches
 // of structural planes are cut where they rise over the surface (the raised parts become patches
-// without a plane, or belong to the thing they continue), and what of a thing's patches is flush
-// with the surface goes to it. `min_structural_area`: of a plane, square metres.
+// without a plane, or belong to the thing they continue), next to things also where they rise less,
+// and what of a thing's patches is flush with the surface goes to it. `min_structural_area`: of a
+// plane, square metres.
 CutPatches CutAtRelief(const VoxelGrid& grid,
                        const Supervoxels& supervoxels,
                        const PatchGraph& graph,

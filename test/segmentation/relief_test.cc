@@ -83,6 +83,48 @@ TEST(Relief, AWarpedAndNoisyTableAloneIsOneSegment) {
   }
 }
 
+// A table (1) with a flat dome (2) on it, 12 mm high in the middle and falling to nothing.
+test::SyntheticScene TableWithDome(double noise) {
+  Random random(5);
+  test::SyntheticScene scene;
+  for (double x = 0.002; x < 1.2; x += 0.004) {
+    for (double y = 0.002; y < 0.8; y += 0.004) {
+      const double distance = std::hypot(x - 0.7, y - 0.3) / 0.07;
+      const double rise = 0.012 * (1 - distance * distance);
+      const double z = std::max(rise, 0.0) + noise * random.Gaussian();
+      scene.Add({x, y, z}, Eigen::Vector3d::UnitZ(), rise > 0 ? 2 : 1);
+    }
+  }
+  return scene;
+}
+
+TEST(Relief, AFlatDomeKeepsItsRim) {
+  for (const double noise : {0.0, 0.0005, 0.001}) {
+    const test::SyntheticScene scene = TableWithDome(noise);
+    const auto found_with = [&](double min_rim_height) {
+      Segmenter::Options options;
+      options.relief.min_rim_height = min_rim_height;
+      return FoundAndForeign(Segmenter(options).Segment(scene.View()), scene.truth, 2);
+    };
+    const auto [found, foreign] = found_with(ReliefOptions().min_rim_height);
+    EXPECT_GE(found, 0.8) << "noise " << noise;
+    EXPECT_LE(foreign, 0.02) << "noise " << noise;
+    EXPECT_GE(found, found_with(1.0).first + 0.1) << "the rim makes no difference, noise " << noise;
+  }
+}
+
+TEST(Relief, NoiseBesideAThingStaysWithTheTable) {
+  for (const double noise : {0.0015, 0.003}) {
+    const test::SyntheticScene scene = TableWithPhone(noise);
+    const auto share_of_table = [&](double max_rim) {
+      Segmenter::Options options;
+      options.relief.max_rim = max_rim;
+      return FoundAndForeign(Segmenter(options).Segment(scene.View()), scene.truth, 1).first;
+    };
+    EXPECT_GE(share_of_table(1.0), share_of_table(0.0) - 0.002) << "noise " << noise;
+  }
+}
+
 // Patches of 8 cm on the warped table.
 PatchGraph WarpedTable() {
   constexpr std::uint32_t kColumns = 15;

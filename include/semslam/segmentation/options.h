@@ -59,6 +59,10 @@ struct PlaneAssignmentOptions {
 struct ReliefOptions {
   double min_height = 0.004;       // Of a thing over the surface it lies on, metres, and
   double noise_factor = 3;         // in standard deviations of the surface's own roughness.
+  double min_rim_height = 0.001;   // The same of what continues a thing. A voxel of noise has about
+  double rim_noise_factor = 2.5;   // eight neighbours: at two deviations or more less than one of
+                                   // them is as high, so that noise does not spread.
+  double max_rim = 0.08;           // How far that reaches from the thing, metres.
   double reference_radius = 0.25;  // Of the surface a height is measured from, metres.
   double min_area = 0.002;         // Of a thing that nothing else tells of, square metres.
 };
