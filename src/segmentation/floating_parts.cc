@@ -149,26 +149,41 @@ class FragmentJoiner {
       if (!is_used[patch] || !places_of_[patch].empty()) continue;
       places_of_[patch].push_back(scene_.graph.patches[patch].centroid.cast<float>());
     }
+    balls_.assign(is_used.size(), {});
+    for (std::size_t patch = 0; patch < is_used.size(); ++patch) {
+      Ball& ball = balls_[patch];
+      ball.centre = scene_.graph.patches[patch].centroid.cast<float>();
+      for (const Eigen::Vector3f& place : places_of_[patch]) {
+        ball.radius = std::max(ball.radius, (place - ball.centre).norm());
+      }
+    }
   }
 
-  float SquaredGapBetween(std::uint32_t a, std::uint32_t b) const {
-    float least = std::numeric_limits<float>::infinity();
+  // The least distance of places of two patches if it is below `limit`, else `limit`.
+  float GapBetween(std::uint32_t a, std::uint32_t b, float limit) const {
+    const Ball& ball = balls_[b];
+    if ((balls_[a].centre - ball.centre).norm() - balls_[a].radius - ball.radius >= limit) {
+      return limit;
+    }
     for (const Eigen::Vector3f& here : places_of_[a]) {
+      if ((here - ball.centre).norm() - ball.radius >= limit) continue;
+      float least = limit * limit;
       for (const Eigen::Vector3f& there : places_of_[b]) {
         least = std::min(least, (here - there).squaredNorm());
       }
+      limit = std::min(limit, std::sqrt(least));
     }
-    return least;
+    return limit;
   }
 
   // Of equally near ones the first.
   std::uint32_t FindNearest(const std::vector<std::uint32_t>& fragment,
                             const std::vector<std::uint32_t>& near) {
     std::uint32_t nearest = kNothing;
-    auto least = static_cast<float>(max_gap_ * max_gap_);
+    auto least = static_cast<float>(max_gap_);
     for (const std::uint32_t other : near) {
       for (const std::uint32_t patch : fragment) {
-        const float gap = SquaredGapBetween(patch, other);
+        const float gap = GapBetween(patch, other, least);
         if (gap >= least) continue;
         least = gap;
         nearest = other;
@@ -177,16 +192,25 @@ class FragmentJoiner {
     return nearest;
   }
 
+  // Around all places of a patch.
+  struct Ball {
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    float radius = 0;
+  };
+
   const PartsOfScene& scene_;
   PatchFinder things_;
   double max_gap_;
   DisjointSets& sets_;
-  std::vector<std::vector<Eigen::Vector3f>> places_of_;  // By patch.
+  std::vector<std::vector<Eigen::Vector3f>> places_of_;  // By patch, of those looked at.
+  std::vector<Ball> balls_;
 };
 
 // A component as a body: where its mass is and what holds it.
 struct Body {
   PointMoments moments;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // These two of the moments.
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double area = 0;          // Square metres.
   double num_contacts = 0;  // With all others.
   // Of the surfaces that it stands on: normals, weighted by contacts. Zero if it stands on none.
@@ -217,7 +241,11 @@ std::map<std::uint32_t, Body> FindBodies(const PartsOfScene& scene, DisjointSets
       if (scene.is_structural[other]) bodies[part].up += edge.num_contacts * patches[patch].normal;
     }
   }
-  for (auto& [representative, body] : bodies) body.up.normalize();
+  for (auto& [representative, body] : bodies) {
+    body.centre = body.moments.Mean();
+    body.spread = body.moments.Covariance();
+    body.up.normalize();
+  }
   return bodies;
 }
 
@@ -228,11 +256,11 @@ constexpr double kReach = 2;
 // does not, or if the gap is higher than the part.
 std::optional<double> GapBeneath(const Body& part, const Body& support) {
   const Eigen::Vector3d& up = support.up;
-  const Eigen::Vector3d offset = part.moments.Mean() - support.moments.Mean();
+  const Eigen::Vector3d offset = part.centre - support.centre;
   const double height = offset.dot(up);
-  const Eigen::Matrix3d spread = support.moments.Covariance();
+  const Eigen::Matrix3d& spread = support.spread;
   const double top = kReach * std::sqrt(std::max(0.0, up.dot(spread * up)));
-  const double half = kReach * std::sqrt(std::max(0.0, up.dot(part.moments.Covariance() * up)));
+  const double half = kReach * std::sqrt(std::max(0.0, up.dot(part.spread * up)));
   if (height < top || height - top - half > 2 * half) return std::nullopt;
   // How far from the middle of the support, in its deviations. A narrow support has some width.
   constexpr double kMinDeviation = 0.004;  // Metres.
@@ -244,10 +272,15 @@ std::optional<double> GapBeneath(const Body& part, const Body& support) {
   return height - top - half;
 }
 
-// Among what is no larger than a thing.
-void JoinWhatStandsBeneath(const PartsOfScene& scene, double max_area, DisjointSets& sets) {
+// Among what is as large as a thing, and no larger.
+void JoinWhatStandsBeneath(const PartsOfScene& scene,
+                           const ComponentOptions& options,
+                           DisjointSets& sets) {
   std::map<std::uint32_t, Body> bodies = FindBodies(scene, sets);
-  std::erase_if(bodies, [&](const auto& item) { return item.second.area >= max_area; });
+  std::erase_if(bodies, [&](const auto& item) {
+    return item.second.area < options.min_thing_area ||
+           item.second.area >= options.min_structural_area;
+  });
   for (const auto& [part, body] : bodies) {
     if (!body.Floats()) continue;
     std::uint32_t best = kNothing;
@@ -292,7 +325,7 @@ void JoinFloatingParts(const PartsOfScene& scene,
   // Two fragments that joined may still be one.
   while (JoinFragmentsToWhatIsNear(scene, options, sets)) {
   }
-  JoinWhatStandsBeneath(scene, options.min_structural_area, sets);
+  JoinWhatStandsBeneath(scene, options, sets);
 }
 
 }  // namespace semslam
