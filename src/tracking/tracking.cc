@@ -211,6 +211,8 @@ Tracking::Result Tracking::StartPiece(std::shared_ptr<const Frame> frame,
       const LandmarkId landmark = map.AddLandmark(p_world, {keyframe, feature});
       first.points[feature] = TrackedPoint{landmark, p_world};
     }
+    epoch_ = map.epoch();
+    local_map_.CopyFrom(map, first);
     return keyframe;
   });
   state_ = TrackingState::kTracking;
@@ -284,14 +286,24 @@ std::optional<TrackedFrame> Tracking::TrackWithMotion(
   return matched;
 }
 
+// Serves where the map with its keyframes cannot be had.
+KnownKeyframe Tracking::LastFrameAsKeyframe() const {
+  KnownKeyframe known{last_.frame, nullptr, last_.points};
+  for (std::optional<TrackedPoint>& point : known.points) {
+    if (point && !point->landmark) point.reset();
+  }
+  return known;
+}
+
 std::optional<TrackedFrame> Tracking::TrackKeyframe(const std::shared_ptr<const Frame>& frame,
                                                     KeyframeId keyframe_id) const {
-  const std::optional<KnownKeyframe> reference =
-      map_.Read([&](const Map& map) -> std::optional<KnownKeyframe> {
+  const auto copied =
+      map_.TryRead(kMaxMapWait, [&](const Map& map) -> std::optional<KnownKeyframe> {
         const Keyframe* keyframe = NearestKeptKeyframe(map, keyframe_id);
         if (keyframe == nullptr) return std::nullopt;
         return CopyKnownKeyframe(map, *keyframe);
       });
+  const std::optional<KnownKeyframe> reference = copied ? *copied : LastFrameAsKeyframe();
   if (!reference) return std::nullopt;
   const std::vector<FeatureMatch> matches = MatchKnownKeyframe(
       *reference, *frame, vocabulary_->Transform(frame->descriptors), *vocabulary_);

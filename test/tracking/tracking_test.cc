@@ -287,6 +287,14 @@ TEST_F(TrackingTest, FollowsTheCameraWhileAnotherThreadHoldsTheMap) {
   EXPECT_THAT(result.T_world_camera, Rigid3Near(SyntheticWorld::PathAt(i / 30.0), 5e-4, 1e-3));
 }
 
+TEST_F(TrackingTest, TheSecondFrameNeedNotWaitForTheMapEither) {
+  Track(0);
+  const testing::HeldLock<Map> holder(map_);
+  const Tracking::Result result = tracking_->Track(World().LookAlongPath(1).frame, {});
+  ASSERT_EQ(result.state, TrackingState::kTracking);
+  EXPECT_THAT(result.T_world_camera, Rigid3Near(SyntheticWorld::PathAt(1 / 30.0), 5e-4, 1e-3));
+}
+
 TEST_F(TrackingTest, HearsOfACorrectionOnceItCanHaveTheMap) {
   int i = 0;
   for (; i < 20; ++i) Track(i);

@@ -24,6 +24,8 @@ class LocalMap {
   // tracking waits and the copy is of the epoch that the frame's landmarks are of: then the copy
   // serves once more.
   bool Update(const SharedMap& map, const TrackedFrame& frame, std::uint64_t epoch_of_frame);
+  // The same for those who have the map.
+  bool CopyFrom(const Map& map, const TrackedFrame& frame);
 
   const std::vector<LandmarkCopy>& landmarks() const { return landmarks_; }  // Ascending ids.
   // The keyframe that shares most landmarks with the frame.
@@ -33,8 +35,6 @@ class LocalMap {
   std::optional<std::uint64_t> epoch() const { return epoch_; }
 
  private:
-  bool CopyFrom(const Map& map, const TrackedFrame& frame);
-
   std::vector<KeyframeId> keyframes_;  // Ascending.
   std::vector<LandmarkCopy> landmarks_;
   KeyframeId reference_;

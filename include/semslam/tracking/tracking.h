@@ -122,6 +122,7 @@ class Tracking {
   std::optional<Vector6d> VelocityAt(const TrackedFrame& current) const;
   std::optional<TrackedFrame> PredictAndMatch(const std::shared_ptr<const Frame>& frame);
   std::optional<TrackedFrame> TrackWithMotion(const std::shared_ptr<const Frame>& frame) const;
+  KnownKeyframe LastFrameAsKeyframe() const;
   std::optional<TrackedFrame> TrackKeyframe(const std::shared_ptr<const Frame>& frame,
                                             KeyframeId keyframe) const;
   std::optional<TrackedFrame> Relocalize(const std::shared_ptr<const Frame>& frame) const;
